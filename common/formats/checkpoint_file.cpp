@@ -18,8 +18,9 @@ namespace {
 
 constexpr const char* kCheckpointFormat = "icesolve-checkpoint";
 
-// Version of the format; 1 more when a field changes its meaning. A reader refuses all others.
-constexpr std::int64_t kFormatVersion = 1;
+// Version of the format; 1 more when a field changes its meaning or its name. A reader refuses all
+// others.
+constexpr std::int64_t kFormatVersion = 2;
 constexpr const char* kStartAnew = "restart from another checkpoint, or run the case anew";
 
 // How a T is stored: as `width` values of type Base.

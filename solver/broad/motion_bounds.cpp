@@ -8,7 +8,7 @@ namespace ice {
 
 namespace {
 
-// A turn by more than this between two looks [rad] counts as any: beyond it the chord of two
+// A turn by more than this between two updates [rad] counts as any: beyond it the chord of two
 // quaternions is no close bound of the angle. Smaller drops neighbour lists of floes that spin
 // fast; a step turns a floe by far less.
 constexpr double kLargeTurn = 0.5;
@@ -48,7 +48,7 @@ void MotionBounds::update(const Scene& scene, double dt) {
     orientation_.resize(b.size());
     // A path grows by |dx| + theta (R + kSurround) in a step (section 9); at the end of the coming
     // step by the present velocities instead of the difference of poses.
-    const auto look = [&](std::size_t i) {
+    const auto add_motion = [&](std::size_t i) {
         if (i < known) {
             double arm = MotionBounds::lever(scene.shapes[static_cast<std::size_t>(b.shape[i])]);
             const double turn = turn_between(orientation_[i], b.orientation[i]);
@@ -61,7 +61,7 @@ void MotionBounds::update(const Scene& scene, double dt) {
         position_[i] = b.position[i];
         orientation_[i] = b.orientation[i];
     };
-    for (std::size_t i = known; i < b.size(); ++i) look(i);
+    for (std::size_t i = known; i < b.size(); ++i) add_motion(i);
     if (known < b.size()) return update(scene, dt);  // path_after_step of those just met
     // a crushed sphere moves in its body as if the body had moved
     for (const CrushedIce::CrushEvent& event : scene.crushed.recent) {
@@ -69,10 +69,10 @@ void MotionBounds::update(const Scene& scene, double dt) {
             (*sum)[static_cast<std::size_t>(event.body)] += event.depth;
     }
     // Only bodies that can move are measured: the ship, free floes, and held ones that drift.
-    look(kShip);
-    for (const std::int32_t i : b.moving) look(static_cast<std::size_t>(i));
+    add_motion(kShip);
+    for (const std::int32_t i : b.moving) add_motion(static_cast<std::size_t>(i));
     for (std::size_t i = 1; i < b.size(); ++i)
-        if (b.held[i] && !b.velocity[i].isZero(0.0)) look(i);
+        if (b.held[i] && !b.velocity[i].isZero(0.0)) add_motion(i);
 }
 
 }  // namespace ice

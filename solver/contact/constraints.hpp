@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Contacts as the solver sees them: lever arms, effective masses, bounds and impulses
-/// (docs/method.md, section 4).
+/// Contacts as the solver sees them: lever arms, bounds and impulses (docs/method.md, section 4).
+/// Their effective masses are in ContactRow.
 #pragma once
 
 #include <Eigen/Geometry>

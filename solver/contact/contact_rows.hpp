@@ -50,7 +50,8 @@ struct ContactRow {
 /// Eight body pairs without a common free body, so that they may be solved at once.
 struct PairBlock {
     std::int32_t first_row = 0, rows = 0;  ///< of ContactRows::rows
-    std::int32_t colour = 0;  ///< neither do blocks of one colour; later ones have no more rows
+    /// Blocks of one colour share no free body either; within a colour the number of rows falls.
+    std::int32_t colour = 0;
     std::array<std::int32_t, kLanes> a{}, b{};      ///< local bodies; lanes without a pair: -1
     LaneValues inverse_mass_a{}, inverse_mass_b{};  ///< [1/kg]; 0 for immovable bodies
     /// World axes: xx yy zz xy xz yz [1/(kg m2)].

@@ -56,19 +56,19 @@ Overlaps::Push Overlaps::push_of(const Bodies& bodies, const Constraint& c, std:
                &of_b = bodies.inverse_inertia_world[c.b];
     const Mat3 response = response_matrix(bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b], of_a,
                                           c.arm_a, of_b, c.arm_b);
-    // 1 / k(n) of (5), for a move instead of a velocity
-    double yields = ordered_dot(c.normal, ordered_product(response, c.normal));
+    // k(n) of (5), for a move instead of a velocity
+    double inverse_effective_mass = ordered_dot(c.normal, ordered_product(response, c.normal));
     Vec3 shift = Vec3::Zero();
     if (ship) {
         shift = ordered_product(bodies.ship.inverse_mass, c.normal);
-        yields += ordered_dot(c.normal, shift);
+        inverse_effective_mass += ordered_dot(c.normal, shift);
     }
     return {row,
             target,
             0.0,
             ordered_product(of_a, c.arm_a.cross(c.normal)),
             ordered_product(of_b, c.arm_b.cross(c.normal)),
-            1.0 / yields,
+            1.0 / inverse_effective_mass,
             shift};
 }
 
@@ -85,7 +85,7 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
         out.shift[i].setZero();
         out.turn[i].setZero();
     }
-    // which overlaps, as the final velocities leave them, open by how much
+    // overlaps as the final velocities leave them: what these open by themselves needs no shift
     pushes_.clear();
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];

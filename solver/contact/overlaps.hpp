@@ -11,10 +11,10 @@
 namespace ice {
 
 /// Overlap that is left alone, as a share of the smaller contact sphere's radius [-]: contacts that
-/// just touch stay contacts, and a case may begin with it. It is what places rounded to a
-/// millimetre and normals rounded to floats make of floes that touch, and what a gap changes by
-/// where another sphere becomes the nearest one. More leaves bodies deeper in each other; with
-/// less, position correction moves floes that only touch.
+/// just touch stay contacts, and a case may begin with it. Places rounded to a millimetre, normals
+/// stored as floats and the change of the nearest sphere make overlaps of this size between floes
+/// that only touch. More leaves bodies deeper in each other; with less, position correction moves
+/// floes that only touch.
 constexpr double kToleratedOverlap = 0.02;
 
 /// Small moves that shrink overlaps; they change poses, never velocities or reported forces.

@@ -124,7 +124,8 @@ void Recess::move_spheres(Scene& scene, const ContactLaw& law, double dt,
         scene.crushed.crush(m.place.body, m.place.sphere, scene.shapes[shape].center.size(),
                             m.shift);
     }
-    // all contacts of a sphere that has moved are less deep
+    // The contacts were found before their spheres moved: without this the step would push at an
+    // overlap that is gone.
     for (std::size_t k = 0; k < contacts.size() && !moves_.empty(); ++k) {
         const Place place = place_of(contacts[k]);
         const auto move =

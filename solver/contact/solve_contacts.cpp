@@ -29,12 +29,13 @@ constexpr int kRebounds = 2;
 // take many iterations reach them.
 constexpr int kPlainShare = 3;
 
-// Contacts take part in the rest stage when the loads bring them this near to closing [m]: most
-// are near ones that carry nothing. Those that its solution closes all the same then take part too;
-// the residual after so many solutions is an overlap in the next step. Without this margin a step
-// takes 2.6 to 6.5 solutions instead of 1.07 to 1.14; twice as much takes a fifth more contacts.
-// Fewer solutions [-] leave more steps unconverged; a step with more than two is rare.
+// Distance from closing [m] within which a contact takes part in the rest stage: most contacts are
+// near ones that carry nothing. Without this margin a step takes 2.6 to 6.5 solutions instead of
+// 1.07 to 1.14; twice as much takes a fifth more contacts.
 constexpr double kNear = 1e-4;
+
+// Rest solutions at most [-]: each adds the contacts that the last one closed; what is left becomes
+// overlap. Fewer leave more steps unconverged; a step with more than two is rare.
 constexpr int kRestSolutions = 5;
 
 bool meets_within_step(const Constraint& c, double dt) {
@@ -52,8 +53,9 @@ void drive_through(Bodies& bodies, Constraint& c) {
     if (speed > 0.0) c.impact_tangent = -(c.friction * c.max_impulse / speed) * sliding;
     // A ship that answers in some direction is slowed down by the friction, not turned round.
     if (c.a != static_cast<std::int32_t>(kShip) || !bodies.ship.free || speed == 0.0) return;
-    const double yields = ship_response(bodies.ship, c.arm_a, sliding / speed);
-    if (yields * c.friction * c.max_impulse > speed) c.impact_tangent = -1.0 / yields * sliding;
+    const double inverse_effective_mass = ship_response(bodies.ship, c.arm_a, sliding / speed);
+    if (inverse_effective_mass * c.friction * c.max_impulse > speed)
+        c.impact_tangent = -1.0 / inverse_effective_mass * sliding;
     push_ship(bodies, c, c.impact_tangent);
 }
 
@@ -190,7 +192,8 @@ void ContactSolver::begin_rest(const Bodies& bodies, const std::vector<Constrain
                           });
 }
 
-// The first guess moves copies: taken back from the bodies it would leave its rounding there.
+// The first guess is applied to the bodies only while their motion is copied: subtracting it
+// afterwards would leave rounding.
 void ContactSolver::begin_rest_with_guess(Bodies& bodies, std::vector<Constraint>& constraints,
                                           double dt) {
     velocities_.clear();

@@ -34,8 +34,9 @@ public:
     ///
     /// (equations (6) and (7)).
     ///
-    /// A contact that reaches its bound does not rebound (e = 0 for it): with a finite crushing
-    /// pressure the stage first solves with e = 0 for all, then with e for contacts that held.
+    /// A contact that reaches its bound does not rebound (e = 0 for it). With a finite crushing
+    /// pressure the stage therefore solves first with e = 0 for all; then with e for the contacts
+    /// below their bound, twice at most. A contact that reaches its bound loses e for the step.
     /// Contacts at rest have v_r0 . n = 0 and do not bounce, without any threshold (Guendelman,
     /// Bridson, Fedkiw, ACM TOG 22(3), 2003, section 5).
     ///

@@ -32,7 +32,7 @@ struct ShipAddedMass {
 };
 
 /// The added mass of the wetted part of a closed hull. Surge, sway and yaw are slow: the water's
-/// surface is a lid. Heave, roll and pitch are fast: it yields (phi = 0), the limit of infinite
+/// surface is a lid. Heave, roll and pitch are fast: it is free (phi = 0), the limit of infinite
 /// frequency. Terms that couple the one with the other are 0, as they are for two such surfaces
 /// together.
 /// @param water  z of the water in the mesh's frame [m]

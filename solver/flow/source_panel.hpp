@@ -25,8 +25,8 @@ struct SourcePanel {
 SourcePanel make_panel(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Strength of images in z = 0, as a share of the panel's own [-]: a flat surface that nothing
-/// passes (slow motions), one that yields without delay (potential 0, fast motions), and no surface
-/// (deep water). Other values have no meaning.
+/// passes (slow motions), one that is free (potential 0, fast motions), and no surface (deep
+/// water). Other values have no meaning.
 constexpr double kLid = 1.0, kFreeSurface = -1.0, kDeep = 0.0;
 
 /// Panels and their mirror images: in the water's surface z = 0, and where the body is symmetric

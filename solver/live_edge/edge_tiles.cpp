@@ -29,14 +29,14 @@ public:
         for (std::int64_t i = 0; i < count_[0]; ++i) fill_column(sheet, i);
     }
 
-    void join_slivers(const std::function<bool(const Loop&)>& holds) {
+    void join_slivers(const std::function<bool(const Loop&)>& can_be_filled) {
         // A strip too thin for a sphere would be ice that nothing meets. It joins a neighbour
         // with which it has a common side; without one it is left out.
         for (std::int64_t i = 0; i < count_[0]; ++i)
             for (std::int64_t j = 0; j < count_[1]; ++j) {
                 std::vector<Loop> kept;
                 for (Loop& part : parts(i, j)) {
-                    if (holds(part))
+                    if (can_be_filled(part))
                         kept.push_back(std::move(part));
                     else
                         join(part, i, j);
@@ -114,9 +114,9 @@ private:
 }  // namespace
 
 std::vector<Loop> edge_tiles(const IceSheet& sheet, const EdgeGrid& grid, const Box& reach,
-                             const std::function<bool(const Loop&)>& holds) {
+                             const std::function<bool(const Loop&)>& can_be_filled) {
     Cells cells(sheet, grid, reach);
-    cells.join_slivers(holds);
+    cells.join_slivers(can_be_filled);
     std::vector<Loop> tiles = cells.met();
     for (Loop& tile : tiles) {
         // A tile is recognized by its corners, which begin at the same one however it was cut.

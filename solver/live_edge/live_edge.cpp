@@ -251,13 +251,15 @@ void LiveEdge::add_piece(const Loop& piece, const Crack& crack, const std::vecto
     }
 }
 
-bool LiveEdge::holds(const Loop& outline) const { return can_be_filled(outline, thickness_); }
+bool LiveEdge::can_be_filled(const Loop& outline) const {
+    return ice::can_be_filled(outline, thickness_);
+}
 
 std::vector<Loop> LiveEdge::bodies_of(const Loop& part) const {
     if (is_strip_) return strip_bodies(part, gap_, kSmallestPiece * thickness_);
     std::vector<Loop> out;
     for (Loop& loop : shrunk(part, 0.5 * gap_, kSmallestPiece * thickness_))
-        if (holds(loop)) out.push_back(std::move(loop));
+        if (can_be_filled(loop)) out.push_back(std::move(loop));
     return out;
 }
 

@@ -148,7 +148,7 @@ private:
     void put(Scene& scene, double time, Plan& plan);
     void retire(std::size_t slot, double time, Plan& plan);
     std::size_t free_slot(const Scene& scene, double time, Plan& plan);
-    bool holds(const Loop& outline) const;
+    bool can_be_filled(const Loop& outline) const;
     std::vector<Loop> bodies_of(const Loop& part) const;
 
     // from the case and the hull

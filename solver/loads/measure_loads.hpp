@@ -21,7 +21,8 @@ void add_applied(const Bodies& bodies, const std::vector<WaterLoad>& applied,
                  std::vector<FloeLoad>& loads);
 
 /// Loads by body: zero for held floes and the ship.
-/// @pre no floe was released since measure_loads; so for all that take its answer
+/// @pre no floe was released since measure_loads: a precondition of every function that takes
+/// `loads`
 std::vector<FloeLoad> loads_by_body(const Bodies& bodies, const std::vector<FloeLoad>& loads);
 
 /// Velocities after the loads act for dt: v += F dt / m (with added mass (m + A)^-1 F dt),

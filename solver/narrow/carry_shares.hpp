@@ -9,8 +9,9 @@
 
 namespace ice {
 
-/// Makes the patches of a convex hull's contacts with a convex floe add up to the section that the
-/// hull has cut, whichever of the two the piece is cut off. Only Patch::share changes [m2].
+/// Scales the patches of a convex hull's contacts with a convex floe so that their areas add up to
+/// the section that the hull has cut, at faces, edges and corners alike. Only Patch::share changes
+/// [m2].
 ///
 /// The overlap is bounded by ice faces A_j and hull faces A_k, and sum A_j n_j = -sum A_k n_k
 /// (divergence theorem). So the shares of the ice's spheres, carried over to the hull's faces along
@@ -22,8 +23,8 @@ namespace ice {
 /// (-n_j . n) where s is the hull's normal and the hull cuts off a piece of the ice, and up to
 /// 1 / (n_j . n)^2 times as much where the hull's edge or corner enters a face of the ice.
 ///
-/// The hull's edges count beside them as far as the ice's spheres leave their part of the section:
-/// at first, between two of these, it is all of it, later nothing.
+/// A sphere on the hull's edge adds the part of the section that no ice sphere covers: all of it
+/// before the first ice sphere is reached, none later.
 ///
 /// @param contacts  of the pair's spheres, in their order; of other pairs than the ship's, or where
 /// one is not convex, they stay as they are

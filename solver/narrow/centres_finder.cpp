@@ -16,8 +16,8 @@ namespace {
 // Results do not depend on it.
 constexpr std::size_t kSerialLists = 128;
 
-// A pair's spheres are listed as far ahead as it goes in so many steps, within these bounds: more
-// keeps more spheres, less has to be found anew sooner. Tried: 0.15, 0.3 and 0.4 radii (15, 4 and
+// A pair's list covers its motion in so many steps, within these bounds: a longer one has more
+// spheres to measure, a shorter one is renewed sooner. Tried: 0.15, 0.3 and 0.4 radii (15, 4 and
 // 7 % slower), more than 0.8 (no gain). Contacts are the same.
 constexpr double kListLookAhead = 5.0;                         // steps [-]
 constexpr double kLeastListShare = 0.6, kMostListShare = 0.8;  // of the ice's radius
@@ -29,8 +29,8 @@ constexpr double kSeparationRounding = 1e-6;
 // How far a sphere of b may have gone relative to one of a since they were listed [m]: two
 // rotations differ by sqrt(8) sin(angle / 2), and a point at 1 goes 2 sin(angle / 2).
 double gone_since(const SphereLists::Row& row, const PairView& view, double crushed) {
-    return (view.translation_ab - row.shift).norm() + crushed +
-           view.shape_b.bounding_radius * (view.rotation_ab - row.turn).norm() /
+    return (view.translation_ab - row.translation).norm() + crushed +
+           view.shape_b.bounding_radius * (view.rotation_ab - row.rotation).norm() /
                std::numbers::sqrt2;
 }
 
@@ -47,7 +47,7 @@ void measure(const PairView& view, const TouchingSpheres& touching, double most,
 }
 
 // Is no sphere of one body nearer to the other than their separation()?
-bool are_held(const PairView& view) {
+bool enclose_spheres(const PairView& view) {
     return view.shape_a.bounds.hold_spheres && view.shape_b.bounds.hold_spheres &&
            view.scene.crushed.is_whole(view.pair.a) && view.scene.crushed.is_whole(view.pair.b);
 }
@@ -76,7 +76,7 @@ double CentresFinder::list_spheres(const std::vector<Near>& near, std::vector<Li
     for (const Near& n : near)
         farthest =
             std::max({farthest, n.a.cwiseAbs().maxCoeff(), n.b.cwiseAbs().maxCoeff(), n.radii});
-    // Sixteen bits per number halve the memory that a look at the list reads. Their rounding is a
+    // Sixteen bits per number halve the memory that a pass over the list reads. Their rounding is a
     // known share of the unit, by which the caller widens its range.
     const double unit = near.empty() ? 1.0 : farthest / ListedSpheres::kMost;
     const auto in_units = [&](double length) {
@@ -102,8 +102,8 @@ double CentresFinder::list_spheres(const std::vector<Near>& near, std::vector<Li
     return unit;
 }
 
-CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Step& step,
-                                         Batch& batch) {
+CentresFinder::Found CentresFinder::measure_pair(std::size_t k, BodyPair pair, const Step& step,
+                                                 Batch& batch) {
     const auto& [scene, motion, dt, margin] = step;
     Found found{&batch, batch.candidates.size(), 0, batch.listed.size(), 0, false};
     const PairView view(scene, pair);
@@ -113,7 +113,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     const double crushed = motion.crushed(pair.a) + motion.crushed(pair.b);
     double gone = gone_since(row, view, crushed - row.crushed);
     std::span<const ListedSpheres> listed = lists_.listed(k);
-    const bool held = are_held(view);
+    const bool enclosed = enclose_spheres(view);
     // A gap shrinks by at most `gone`, so the list holds all gaps up to range - gone. The step
     // needs those up to `most`: where that is more, the list is renewed.
     if (gone + most > row.range) {
@@ -122,7 +122,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         // used up the distance.
         if (apart > most) {
             lists_.clearance(k) = path + (apart - kSeparationRounding - margin) /
-                                             (held ? 1.0 : separation_share(view));
+                                             (enclosed ? 1.0 : separation_share(view));
             return found;
         }
         // The list reaches as far as the pair closes in some steps, at least as far as in this
@@ -131,8 +131,8 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         const double ahead =
             std::clamp(kListLookAhead * closing, kLeastListShare * radius, kMostListShare * radius);
         row.range = margin + std::max(ahead, closing);
-        row.turn = view.rotation_ab;
-        row.shift = view.translation_ab;
+        row.rotation = view.rotation_ab;
+        row.translation = view.translation_ab;
         row.crushed = crushed;
         gone = 0.0;
         find_near(view, row.range, batch.search, batch.near);
@@ -146,7 +146,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     const double rounding = ListedSpheres::kError * row.unit;
     const double unsure = rounding + crushed - row.crushed;
     const FloatPose pose =
-        to_floats(view.rotation_ab, (view.translation_ab - row.shift) / row.unit);
+        to_floats(view.rotation_ab, (view.translation_ab - row.translation) / row.unit);
     find_touching(listed, pose, static_cast<float>((most + unsure) / row.unit), batch.touching);
     // Two things can end the pair's clearance: the nearest listed spheres come within the
     // margin, or spheres that were not listed, all beyond row.range then, may have done so.
@@ -157,7 +157,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     // A sphere represents surface beyond its body's rim, but bodies that are apart have no
     // contact. Where spheres stay within their hulls the touching spheres already prove that
     // the hulls are near enough, and the separation need not be computed.
-    if (found.count > 0 && !(held && least + rounding + kSeparationRounding <= most) &&
+    if (found.count > 0 && !(enclosed && least + rounding + kSeparationRounding <= most) &&
         separation(view, most, row.axis) > most)
         found.count = 0;
     return found;
@@ -171,7 +171,7 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         batch.candidates.clear();
         batch.listed.clear();
     });
-    lists_.match(pairs);
+    lists_.carry_over(pairs);
     // To check a clearance costs a comparison; only the pairs whose bodies have used theirs up
     // are measured.
     pairs_to_measure_.resize(pairs.size());
@@ -186,8 +186,8 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     pairs_to_measure_.resize(count);
     found_.resize(pairs_to_measure_.size());
     parallel_for(pairs_to_measure_.size(), kSerialLists, [&](std::size_t n) {
-        found_[n] = look(pairs_to_measure_[n], pairs[pairs_to_measure_[n]],
-                         {scene, motion, dt, margin}, batches_.own());
+        found_[n] = measure_pair(pairs_to_measure_[n], pairs[pairs_to_measure_[n]],
+                                 {scene, motion, dt, margin}, batches_.own());
     });
     touching_.clear();
     // Gathered in the order of the pairs: the contacts do not depend on which thread found

@@ -22,7 +22,8 @@ class CentresFinder {
 public:
     /// As ContactFinder::find: contacts in pair order, none for no pairs.
     /// @param pairs   sorted; lists are kept for pairs that were in the last call, too
-    /// @param dt      time step [s] @param margin  beyond the motion in it [m]
+    /// @param dt      time step [s]
+    /// @param margin  largest gap that is listed beyond the step's motion [m]
     /// @pre motion was updated with the present poses and dt
     void find(const Scene& scene, const std::vector<BodyPair>& pairs, const MotionBounds& motion,
               double dt, double margin, std::vector<Contact>& out);
@@ -63,12 +64,12 @@ private:
     static void find_near(const PairView& view, double range, PairSearch& search,
                           std::vector<Near>& out);
     static double list_spheres(const std::vector<Near>& near, std::vector<ListedSpheres>& out);
-    Found look(std::size_t k, BodyPair pair, const Step& step, Batch& batch);
+    Found measure_pair(std::size_t k, BodyPair pair, const Step& step, Batch& batch);
 
     // kept between steps: no allocation once warm
     SphereLists lists_;
     std::vector<std::size_t> pairs_to_measure_;  // their rows
-    std::vector<Found> found_;                   // of these
+    std::vector<Found> found_;                   // results of these rows
     std::vector<Touching> touching_;
     PerThread<Batch> batches_;
 };

@@ -49,10 +49,10 @@ Crossing crossing_of(const PairView& view, const Candidate& c) {
 
 // Bounds a candidate's depth by the meshes; false where its point is not in the other solid (of a
 // crossing: not in both).
-bool hold_to_meshes(const PairView& view, Candidate& c) {
-    // A move of a point's depth takes it out of the other solid: the contact is no deeper. It may
-    // be less deep along the normal, so the smaller depth counts. Other points of the bodies may
-    // be deeper: the seats find them.
+bool bound_by_meshes(const PairView& view, Candidate& c) {
+    // A point that moves by its depth along its way out has left the other solid, so the contact
+    // is at most as deep; along the normal it may be less deep. The bodies may be deeper at other
+    // points: the seats find those.
     const auto [a, b] = view.pair;
     double depth = 0.0;
     if (c.gap.crossing) {
@@ -80,7 +80,7 @@ void check_depths(const PairView& view, std::vector<Candidate>& candidates) {
     if (view.shape_a.dimension == 2 || is_convex_pair(view)) return;
     const double slack = deep_slack(view);
     std::erase_if(candidates,
-                  [&](Candidate& c) { return c.gap.gap < -slack && !hold_to_meshes(view, c); });
+                  [&](Candidate& c) { return c.gap.gap < -slack && !bound_by_meshes(view, c); });
 }
 
 }  // namespace ice

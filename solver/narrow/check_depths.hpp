@@ -7,7 +7,7 @@
 
 namespace ice {
 
-/// Holds deep candidates of solids that are not both convex to the meshes.
+/// Limits the depth of candidates by the meshes, where not both solids are convex.
 ///
 /// measure_gap_surface knows the faces that meet at two spheres, not the solids: behind two planes
 /// that cross far away a point may seem to be deep although it lies outside, or near another face.

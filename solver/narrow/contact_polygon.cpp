@@ -14,15 +14,15 @@ namespace ice {
 namespace {
 
 // A corner of the incident face as it is clipped, in the reference's axes; `edge` names the edge
-// from it to the next one: the incident face's k-th, or kBorders + k along the reference's k-th.
+// from it to the next one: the incident face's k-th, or kSidePlanes + k along the reference's k-th.
 struct Clipped {
     Vec3 at;
     std::uint32_t edge;
 };
-// Room for a face's borders in a corner's id [-]: at least as many as a piece has planes. A smaller
-// number would give two corners one id.
-constexpr std::uint32_t kBorders = 64;
-static_assert(ConvexPiece::kMost <= kBorders);
+// Room for a face's side planes in a corner's id [-]: at least as many as a piece has planes. A
+// smaller number would give two corners one id.
+constexpr std::uint32_t kSidePlanes = 64;
+static_assert(ConvexPiece::kMost <= kSidePlanes);
 
 // The faces that meet: of the reference piece plane `face`, the incident piece in its axes.
 struct Meeting {
@@ -52,20 +52,20 @@ Vec3 between(const Vec3& p, double height_p, const Vec3& q, double height_q) {
     return (height_p * q - height_q * p) / (height_p - height_q);
 }
 
-// Keeps the part of a polygon within the border, which is `slack` [m] farther out.
-void clip(const FaceBorder& border, double slack, std::uint32_t number,
-          std::vector<Clipped>& polygon, std::vector<Clipped>& rest) {
-    thread_local std::vector<double> height;  // over the border [m]; keeps its memory
+// Keeps the part of a polygon within the side plane, which is `slack` [m] farther out.
+void clip(const SidePlane& side, double slack, std::uint32_t number, std::vector<Clipped>& polygon,
+          std::vector<Clipped>& rest) {
+    thread_local std::vector<double> height;  // over the side plane [m]; keeps its memory
     height.clear();
     for (const Clipped& corner : polygon)
-        height.push_back(ordered_dot(border.outward, corner.at) - (border.offset + slack));
+        height.push_back(ordered_dot(side.outward, corner.at) - (side.offset + slack));
     if (std::all_of(height.begin(), height.end(), [](double h) { return h <= 0.0; })) return;
     rest.clear();
     for (std::size_t k = 0; k < polygon.size(); ++k) {
         const std::size_t next = (k + 1) % polygon.size();
         const bool inside = height[k] <= 0.0;
-        // Sutherland and Hodgman: corners inside stay, and an edge across the border gives a
-        // new one. From there the outline follows the border where it goes out, and the same
+        // Sutherland and Hodgman: corners inside stay, and an edge across the side plane gives a
+        // new one. From there the outline follows the plane where it goes out, and the same
         // edge where it comes in.
         if (inside) rest.push_back(polygon[k]);
         if (inside == (height[next] <= 0.0)) continue;
@@ -75,14 +75,14 @@ void clip(const FaceBorder& border, double slack, std::uint32_t number,
     polygon.swap(rest);
 }
 
-double slack_of_gap(double gap) { return PolygonTolerances::kBorder + std::max(gap, 0.0); }
+double slack_of_gap(double gap) { return PolygonTolerances::kBesidePlane + std::max(gap, 0.0); }
 
-// The corners of the incident face clipped by the reference's borders; their places are found from
-// the features that meet there, not from those found while clipping: so mirror images, clipped in
-// another order, have the same bits.
+// The corners of the incident face clipped by the reference's side planes; their places are found
+// from the features that meet there, not from those found while clipping: so mirror images, clipped
+// in another order, have the same bits.
 class ClippedFace {
 public:
-    // @param slack  the borders are this much farther out [m]
+    // @param slack  the side planes are this much farther out [m]
     ClippedFace(const Meeting& m, double slack)
         : m_(m), slack_(slack), n_(m.reference.normals[m.face]) {
         plane_ = incident_plane(m, n_);
@@ -91,14 +91,14 @@ public:
             const Vec3 at = m.incident.corners[static_cast<std::size_t>(corner)];
             face_.push_back(ordered_product(m.pose.rotation, at) + m.pose.translation);
         }
-        // The whole incident face is clipped by one border after the other. Nothing is left of
+        // The whole incident face is clipped by one side plane after the other. Nothing is left of
         // it where the faces lie side by side.
         polygon_.clear();
         for (const Vec3& at : face_)
             polygon_.push_back({at, static_cast<std::uint32_t>(polygon_.size())});
-        const std::vector<FaceBorder>& borders = m.reference.borders[m.face];
-        for (std::size_t k = 0; k < borders.size() && !polygon_.empty(); ++k)
-            clip(borders[k], slack, kBorders + static_cast<std::uint32_t>(k), polygon_, rest_);
+        const std::vector<SidePlane>& sides = m.reference.side_planes[m.face];
+        for (std::size_t k = 0; k < sides.size() && !polygon_.empty(); ++k)
+            clip(sides[k], slack, kSidePlanes + static_cast<std::uint32_t>(k), polygon_, rest_);
     }
 
     // Calls visit(place, id) for each corner, places in the reference's axes.
@@ -115,22 +115,23 @@ public:
 
 private:
     Vec3 place(std::uint32_t before, std::uint32_t after, const Vec3& clipped) const {
-        if (before < kBorders && after < kBorders) return clipped;  // the incident face's own
-        if (before >= kBorders && after >= kBorders)
-            return over_corner(before - kBorders, after - kBorders, clipped);
-        // one edge of either face: where the incident edge passes the border
+        if (before < kSidePlanes && after < kSidePlanes) return clipped;  // the incident face's own
+        if (before >= kSidePlanes && after >= kSidePlanes)
+            return over_corner(before - kSidePlanes, after - kSidePlanes, clipped);
+        // one edge of either face: where the incident edge passes the side plane
         const std::size_t edge = std::min(before, after);
-        const FaceBorder& border =
-            m_.reference.borders[m_.face][std::max(before, after) - kBorders];
+        const SidePlane& side =
+            m_.reference.side_planes[m_.face][std::max(before, after) - kSidePlanes];
         const Vec3 &p = face_[edge], &q = face_[(edge + 1) % face_.size()];
-        const double offset = border.offset + slack_;
-        return between(p, ordered_dot(border.outward, p) - offset, q,
-                       ordered_dot(border.outward, q) - offset);
+        const double offset = side.offset + slack_;
+        return between(p, ordered_dot(side.outward, p) - offset, q,
+                       ordered_dot(side.outward, q) - offset);
     }
-    // On the incident face, where two borders meet: over the reference's corner between them.
+    // On the incident face, where two side planes meet: over the reference's corner between them.
     Vec3 over_corner(std::size_t before, std::size_t after, const Vec3& clipped) const {
         const std::vector<std::int32_t>& loop = m_.reference.loops[m_.face];
-        if (before != (after + 1) % loop.size()) return clipped;  // they meet beyond other borders
+        // they meet beyond other side planes
+        if (before != (after + 1) % loop.size()) return clipped;
         const Vec3 corner = m_.reference.corners[static_cast<std::size_t>(loop[before])];
         // along the reference's normal to the incident plane
         const Vec3 incident = ordered_product(m_.pose.rotation, m_.incident.normals[plane_]);

@@ -10,7 +10,7 @@
 
 namespace ice {
 
-/// Lengths and cosines within which two convex pieces are judged.
+/// Lengths within which two convex pieces are judged.
 struct PolygonTolerances {
     /// A face of a is the reference until one of b is this much farther away, and faces until two
     /// edges are [m]: faces that lie flush differ by rounding, and shall keep their contacts from
@@ -18,16 +18,18 @@ struct PolygonTolerances {
     /// contacts' ids, change between steps.
     static constexpr double kPrefer = 5e-5;
 
-    /// A corner this far beyond the reference face's border counts as over it [m]: flush borders
-    /// differ by rounding. More gives contacts beside the face; less loses corners on its border.
-    static constexpr double kBorder = 1e-4;
+    /// A corner this far beyond a side plane of the reference face counts as over the face [m]:
+    /// side planes of flush faces differ by rounding. More gives contacts beside the face; less
+    /// loses corners on its side planes.
+    static constexpr double kBesidePlane = 1e-4;
 };
 
 /// One corner of the polygon in which two pieces meet.
 struct PolygonCorner {
-    Vec3 point;        ///< midway between the surfaces, a's axes [m]
-    double gap;        ///< along the axis, negative where the pieces overlap [m]
-    std::uint32_t id;  ///< by the features that meet there: the same corner keeps it in a step
+    Vec3 point;  ///< midway between the surfaces, a's axes [m]
+    double gap;  ///< along the axis, negative where the pieces overlap [m]
+    std::uint32_t
+        id;  ///< by the features that meet there: the same corner keeps it from step to step
 };
 
 /// The corners in which two pieces meet, and their common normal.
@@ -40,11 +42,11 @@ struct ContactPolygon {
 /// `most` [m]; keeps `out`'s memory.
 ///
 /// The axis with the widest gap decides. Where it is a face's, that face is the reference; of the
-/// other piece the face that is turned most against it is the incident one, clipped by the planes
-/// through the reference's borders (Sutherland and Hodgman, Reentrant polygon clipping, CACM 17,
-/// 1974). Two edges meet in one point, midway between them where they are nearest. A face that has
-/// not touched yet may be past a border by its gap: it may come from beside. No corners where every
-/// gap exceeds `most`.
+/// other piece the face that is turned most against it is the incident one, clipped by the
+/// reference's side planes (Sutherland and Hodgman, Reentrant polygon clipping, CACM 17, 1974). Two
+/// edges meet in one point, midway between them where they are nearest. A face that has not touched
+/// yet may be past a side plane by its gap: it may come from beside. No corners where every gap
+/// exceeds `most`.
 /// @param axes  find_axes() of these pieces and this pose, all kinds
 void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                           const SeparatingAxes& axes, double most, ContactPolygon& out);
@@ -58,8 +60,8 @@ Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose&
 /// carry no load outside their triangle; each further one costs a row in the contact solver.
 constexpr std::size_t kManifoldCorners = 4;
 
-/// Leaves at most `count` corners: those go whose loss takes the least of the polygon's area, the
-/// deepest never. @pre count > 2
+/// Removes the corner whose loss takes the least area until `count` remain; the deepest stays.
+/// @pre count > 2
 void reduce_polygon(std::size_t count, ContactPolygon& polygon);
 
 }  // namespace ice

@@ -28,8 +28,8 @@ struct Side {
     const Shape& of;           // whose seats
     const Shape& in;           // whose solid
     std::int32_t body, other;  // of both
-    Mat3 turn;                 // from the seats' axes to the solid's
-    Vec3 shift;                // [m]
+    Mat3 rotation;             // from the seats' axes to the solid's
+    Vec3 translation;          // [m]
 };
 
 Side side_of_b(const PairView& v) {
@@ -43,8 +43,8 @@ Side side_of_a(const PairView& v) {
 
 // The box of the solid in the seats' axes, where the groups of spheres lie.
 Eigen::AlignedBox3d box_of_solid(const Side& side) {
-    const Mat3 back = side.turn.transpose();
-    const Vec3 middle = back * (side.in.box.center() - side.shift);
+    const Mat3 back = side.rotation.transpose();
+    const Vec3 middle = back * (side.in.box.center() - side.translation);
     const Vec3 half = back.cwiseAbs() * (0.5 * side.in.box.sizes());
     return {Vec3(middle - half), Vec3(middle + half)};
 }
@@ -68,7 +68,7 @@ public:
         places_[next_] = {at, clearance * clearance};
         next_ = (next_ + 1) % places_.size();
     }
-    bool hold(const Vec3& p) const {
+    bool contain(const Vec3& p) const {
         return std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
             return (p - place.at).squaredNorm() < place.clearance_sq;
         });
@@ -102,7 +102,7 @@ void for_each_seat(const PairView& view, const Side& side, const Visit& visit) {
             if (!whole) at += view.scene.crushed.displacement_of(side.body, k);
             if (!whole && !side.of.box.contains(at)) continue;  // driven right through its body
             at += side.of.radius[k] * side.of.normal[k];
-            const Vec3 seat = side.turn * at + side.shift;
+            const Vec3 seat = side.rotation * at + side.translation;
             if (side.in.box.contains(seat)) visit(k, seat);
         }
     }
@@ -147,7 +147,7 @@ double add_side(const PairView& view, const Side& side, double slack,
     for_each_seat(view, side, [&](std::int32_t sphere, const Vec3& seat) {
         // Depth changes by at most the distance of two seats: most seats of a side that lies
         // outside are ruled out by the last few nearest points.
-        if (clear.hold(seat)) return;
+        if (clear.contain(seat)) return;
         const Foot foot = side.in.surface->closest(seat);
         const double depth = foot.inside ? foot.distance : -foot.distance;
         deepest = std::max(deepest, depth);

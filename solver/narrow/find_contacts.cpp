@@ -20,10 +20,10 @@ namespace ice {
 
 namespace {
 
-// A pair takes some microseconds, a look at one a twentieth of that: below this many [-], waking
+// A pair takes some microseconds, its state a twentieth of that: below this many [-], waking
 // threads costs more than they save. With 256 one of two threads waited for a fifth of the packed
 // scene's narrow phase. Results do not depend on it.
-constexpr std::size_t kSerialPairs = 64, kSerialLooks = 1024;
+constexpr std::size_t kSerialPairs = 64, kSerialStates = 1024;
 
 // Sets pair.candidates to the contacts of a pair.
 // @pre the bodies are apart (separation) by no more than the margin
@@ -158,7 +158,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     // The state of a pair costs a comparison of path lengths; only pairs that the cache cannot
     // prove apart are measured.
     states_.resize(pairs.size());
-    parallel_for(pairs.size(), kSerialLooks, [&](std::size_t k) {
+    parallel_for(pairs.size(), kSerialStates, [&](std::size_t k) {
         states_[k] = cache_.state(k, scene, pairs[k], motion, dt, margin,
                                   meets_in_polygon(scene, pairs[k], rule));
     });
@@ -286,7 +286,7 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
                                     : measure_gap_surface(a, b, prefers_reference_a(view));
             const bool counts =
                 centres ? gap.valid && gap.gap <= margin
-                        : SphereRange(view, margin).holds(a, b) && is_candidate(view, i, j, gap);
+                        : SphereRange(view, margin).contains(a, b) && is_candidate(view, i, j, gap);
             if (counts) candidates.push_back({i, j, gap});
         }
     if (!centres) {

@@ -48,7 +48,7 @@ public:
     /// By a search of every pair.
     /// @param pairs   sorted by a, then b
     /// @param dt      time step [s]
-    /// @param margin  beyond the motion in it [m]
+    /// @param margin  largest gap that is listed beyond the step's motion [m]
     /// @param out     its old content is dropped; by (a, b)
     void find(const Scene& scene, const std::vector<BodyPair>& pairs, ContactRule rule, double dt,
               double margin, std::vector<Contact>& out);
@@ -96,7 +96,7 @@ private:
     // kept between steps: no allocation once warm
     std::vector<PairCache::State> states_;       // of all pairs
     std::vector<std::size_t> pairs_to_measure_;  // their rows
-    std::vector<Found> found_;                   // of these
+    std::vector<Found> found_;                   // results of these rows
     PerThread<FoundBatch> batches_;
     PairCache cache_;
     CentresFinder centres_;  // instead of all these under the rule "centres"

@@ -81,7 +81,7 @@ inline Gap measure_gap_centres(const Vec3& center_a, double radius_a, const Vec3
 ///   largest gap.
 /// - Where that is a face axis, the two edges that cross nearest within both patch radii replace it
 ///   if neither apex lies over the other's part of the face, or if they are deeper along nearly the
-///   same normal. So an edge on a face's border, or one that crosses another at a small angle,
+///   same normal. So an edge at the end of a face, or one that crosses another at a small angle,
 ///   meets the other body at the crossing, between two spheres.
 /// - Where one of the two does not know its faces, the flatter side gives its normal that is
 ///   nearest to the line of centres.

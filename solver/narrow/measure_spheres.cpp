@@ -58,42 +58,42 @@ double slack_of_sphere(const Shape& shape, std::int32_t sphere, const Gap& gap) 
 }
 
 // Is the point, in a's axes, inside the side planes of a's or b's sphere?
-bool a_holds(const PairView& view, std::int32_t i, const Gap& gap, const Vec3& point) {
+bool a_contains(const PairView& view, std::int32_t i, const Gap& gap, const Vec3& point) {
     return view.shape_a.side_planes.contain(i, point, slack_of_sphere(view.shape_a, i, gap));
 }
-bool b_holds(const PairView& view, std::int32_t j, const Gap& gap, const Vec3& point) {
+bool b_contains(const PairView& view, std::int32_t j, const Gap& gap, const Vec3& point) {
     return view.shape_b.side_planes.contain(j, view.to_b(point),
                                             slack_of_sphere(view.shape_b, j, gap));
 }
 
-bool edges_hold(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap) {
+bool contain_crossing(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap) {
     const Vec3 point_a = view.support_a(i, gap.normal), point_b = view.support_b(j, -gap.normal);
     const Vec3 edge_a = view.shape_a.cone[i].edge(gap.edge_a);
     const Vec3 edge_b = view.rotation_ab * view.shape_b.cone[j].edge(gap.edge_b);
     const LineParameters at = closest_on_lines(point_a, edge_a, point_b, edge_b);
-    // A sphere without side planes has no border to miss.
+    // A sphere without side planes ends nowhere within its patch.
     return (!view.shape_a.side_planes.has(i) ||
-            a_holds(view, i, gap, point_a + at.along_a * edge_a)) &&
+            a_contains(view, i, gap, point_a + at.along_a * edge_a)) &&
            (!view.shape_b.side_planes.has(j) ||
-            b_holds(view, j, gap, point_b + at.along_b * edge_b));
+            b_contains(view, j, gap, point_b + at.along_b * edge_b));
 }
 
-// Do spheres i of a and j of b meet within the borders of their faces and edges (SidePlanes)?
+// Do spheres i of a and j of b meet within the side planes of their faces and edges?
 //
 // Tested is the incident support point on the face, and of two edges the crossing on each. A
 // contact that has not touched yet may lie outside by its gap: it may come from beside.
 bool is_within_side_planes(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap) {
     if (gap.crossing) {
         if (!view.shape_a.side_planes.has(i) && !view.shape_b.side_planes.has(j)) return true;
-        return edges_hold(view, i, j, gap);
+        return contain_crossing(view, i, j, gap);
     }
     // the incident support point where it is inside, else its projection on the face
     const Vec3 rise = std::max(gap.gap, 0.0) * gap.normal;
     if (gap.reference_is_a)
         return !view.shape_a.side_planes.has(i) ||
-               a_holds(view, i, gap, view.support_b(j, -gap.normal) - rise);
+               a_contains(view, i, gap, view.support_b(j, -gap.normal) - rise);
     return !view.shape_b.side_planes.has(j) ||
-           b_holds(view, j, gap, view.support_a(i, gap.normal) + rise);
+           b_contains(view, j, gap, view.support_a(i, gap.normal) + rise);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct SphereRange {
         return along * along + across * across;
     }
     /// Are the centres within it? Spheres beyond it cannot be candidates.
-    bool holds(const Feature& a, const Feature& b) const {
+    bool contains(const Feature& a, const Feature& b) const {
         return (a.center - b.center).squaredNorm() <= squared(a.cone, b.cone);
     }
 

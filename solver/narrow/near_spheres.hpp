@@ -10,10 +10,10 @@
 
 namespace ice {
 
-/// p' = turn p + shift, from one body's axes to another's.
+/// p' = rotation p + translation, from one body's axes to another's.
 struct FloatPose {
-    float turn[3][3];  ///< rotation matrix, row by row
-    float shift[3];    ///< [m]
+    float rotation[3][3];  ///< rotation matrix, row by row
+    float translation[3];  ///< [m]
 };
 
 /// How far apart two spheres may be and still matter: see in_range.

@@ -63,10 +63,10 @@ void pick_spheres(const SphereBlocks& spheres, const std::vector<std::int32_t>& 
              k < SphereBlocks::kGroup * (static_cast<std::size_t>(g) + 1); ++k) {
             float at[3];
             for (int d = 0; d < 3; ++d) {
-                const float* row = pose.turn[d];
+                const float* row = pose.rotation[d];
                 // The order of the SIMD kernel's operations: both must round alike.
                 at[d] = (row[0] * spheres.x[k] + row[1] * spheres.y[k]) +
-                        (row[2] * spheres.z[k] + pose.shift[d]);
+                        (row[2] * spheres.z[k] + pose.translation[d]);
             }
             pick(spheres, k, at, box, grow, out);
         }

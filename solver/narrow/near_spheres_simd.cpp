@@ -146,10 +146,10 @@ void PickMoved(const SphereBlocks& spheres, const std::vector<std::int32_t>& gro
             const auto z = hn::LoadU(d, spheres.z.data() + k);
             // Mul then Add, not MulAdd: a fused product would differ from the reference
             const auto moved = [&](int axis) {
-                const float* row = pose.turn[axis];
+                const float* row = pose.rotation[axis];
                 return hn::Add(
                     hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y)),
-                    hn::Add(hn::Mul(hn::Set(d, row[2]), z), hn::Set(d, pose.shift[axis])));
+                    hn::Add(hn::Mul(hn::Set(d, row[2]), z), hn::Set(d, pose.translation[axis])));
             };
             picked.Add(spheres, k, hn::FirstN(d, kBlock), moved(0), moved(1), moved(2));
         }

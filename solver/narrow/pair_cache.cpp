@@ -26,11 +26,11 @@ constexpr double kLeastShare = 0.3, kMostShare = 0.6;       // of the ice's radi
 // the time depends on it.
 constexpr std::size_t kFewestListed = 4096;
 
-// Relative motion and rotation [rad] of a pair since b had the pose (turn, shift) in a's axes.
-// |R - R0| is sqrt(8) sin(angle / 2), below half a radian at least 0.99 sqrt(2) angle.
-Skin relative_motion(const PairView& view, const Mat3& turn, const Vec3& shift) {
-    const double turned = (view.rotation_ab - turn).norm() / (0.99 * std::numbers::sqrt2);
-    return {(view.translation_ab - shift).norm() + MotionBounds::lever(view.shape_b) * turned,
+// Relative motion and rotation [rad] of a pair since b had the pose (rotation, translation) in a's
+// axes. |R - R0| is sqrt(8) sin(angle / 2), below half a radian at least 0.99 sqrt(2) angle.
+Skin relative_motion(const PairView& view, const Mat3& rotation, const Vec3& translation) {
+    const double turned = (view.rotation_ab - rotation).norm() / (0.99 * std::numbers::sqrt2);
+    return {(view.translation_ab - translation).norm() + MotionBounds::lever(view.shape_b) * turned,
             turned};
 }
 
@@ -87,8 +87,8 @@ void PairCache::close_gaps() {
 void PairCache::renew(std::size_t k, const PairView& view, const MotionBounds& motion,
                       const Skin& skin, double clearance) {
     Row& row = rows_[k];
-    row.turn = view.rotation_ab;
-    row.shift = view.translation_ab;
+    row.rotation = view.rotation_ab;
+    row.translation = view.translation_ab;
     row.crushed = motion.crushed(view.pair.a) + motion.crushed(view.pair.b);
     row.clearance = clearance;
     row.skin = skin;
@@ -114,8 +114,8 @@ void PairCache::set_clearances(Row& row, BodyPair pair, const MotionBounds& moti
 
 void PairCache::set_seat_clearance(std::size_t k, const PairView& view, double clearance) {
     Row& row = rows_[k];
-    row.seat_turn = view.rotation_ab;
-    row.seat_shift = view.translation_ab;
+    row.seat_rotation = view.rotation_ab;
+    row.seat_translation = view.translation_ab;
     row.seat_clearance = clearance;
 }
 
@@ -126,7 +126,8 @@ double PairCache::seat_clearance_left(const Row& row, const PairView& view, doub
     if (apart > 0.0) return deep_slack(view);
     if (row.seat_clearance < 0.0) return row.seat_clearance;
     // the clearance after the last search, less the motion since then
-    return row.seat_clearance - relative_motion(view, row.seat_turn, row.seat_shift).distance;
+    return row.seat_clearance -
+           relative_motion(view, row.seat_rotation, row.seat_translation).distance;
 }
 
 double PairCache::separation_of_solids(Row& row, const PairView& view, double enough) {
@@ -177,7 +178,7 @@ PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pa
     if (row.skin.distance < 0.0) return State::stale;  // never settled
     // Third the skin: how much of it has the motion used up? Crushing moves spheres as motion
     // does.
-    const auto [moved, turned] = relative_motion(view, row.turn, row.shift);
+    const auto [moved, turned] = relative_motion(view, row.rotation, row.translation);
     const double gone = moved + motion.crushed(pair.a) + motion.crushed(pair.b) - row.crushed;
     const double then = gone + closing;
     if (then >= row.skin.distance || turned >= row.skin.angle) return State::stale;

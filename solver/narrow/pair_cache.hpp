@@ -71,8 +71,8 @@ public:
 private:
     struct Row {
         // pose of b in a's axes when the row was renewed
-        Mat3 turn = Mat3::Zero();
-        Vec3 shift = Vec3::Zero();
+        Mat3 rotation = Mat3::Zero();
+        Vec3 translation = Vec3::Zero();
         double crushed = 0.0;    // of both bodies then [m]
         double clearance = 0.0;  // relative motion before they can touch [m]
         Skin skin{-1.0, -1.0};
@@ -86,10 +86,10 @@ private:
         bool deep = false;
         // Pose of b when its seats were last searched, and the relative motion from there before
         // one can lie deep [m]; negative: they must be searched in any case.
-        Mat3 seat_turn = Mat3::Zero();
-        Vec3 seat_shift = Vec3::Zero();
+        Mat3 seat_rotation = Mat3::Zero();
+        Vec3 seat_translation = Vec3::Zero();
         double seat_clearance = -1.0;
-        double seat_clearance_left = 0.0;  // of it, when last compared [m]
+        double seat_clearance_left = 0.0;  // what was left of it when last compared [m]
     };
     // A lower bound of the distance of row k's solids; exact where it is at most `enough` [m].
     static double separation_of_solids(Row& row, const PairView& view, double enough);

@@ -11,16 +11,16 @@ namespace {
 // time depends on it: the same pairs are found.
 constexpr std::size_t kAllAtOnce = 64;
 
-// The box around a box that was moved by p' = turn p + shift.
-FloatBox move_box(const FloatBox& box, const Mat3& turn, const Vec3& shift) {
+// The box around a box that was moved by p' = rotation p + translation.
+FloatBox move_box(const FloatBox& box, const Mat3& rotation, const Vec3& translation) {
     Vec3 middle, half;
     for (int d = 0; d < 3; ++d) {
         // The half sizes of a turned box: absolute values of the rotation times the old ones.
         middle[d] = 0.5 * (box.high[d] + box.low[d]);
         half[d] = 0.5 * (box.high[d] - box.low[d]);
     }
-    middle = Vec3(turn * middle + shift);
-    half = Vec3(turn.cwiseAbs() * half);
+    middle = Vec3(rotation * middle + translation);
+    half = Vec3(rotation.cwiseAbs() * half);
     FloatBox out;
     for (int d = 0; d < 3; ++d) {
         out.low[d] = static_cast<float>(middle[d] - half[d]);
@@ -38,12 +38,12 @@ float reach_of(const SphereBlocks& others, const SearchRange& range) {
 
 // Spheres of a body, picked at their places before any crushing, go to their present places.
 void move_crushed(const CrushedIce& crushed, std::int32_t body, const Shape& shape,
-                  const Mat3& turn, const Vec3& shift, NearSpheres& picked) {
+                  const Mat3& rotation, const Vec3& translation, NearSpheres& picked) {
     if (crushed.is_whole(body)) return;
     for (std::size_t k = 0; k < picked.count; ++k) {
         const Vec3 move = crushed.displacement_of(body, picked.id[k]);
         if (move.isZero(0.0)) continue;
-        const Vec3 at = turn * (shape.center[picked.id[k]] + move) + shift;
+        const Vec3 at = rotation * (shape.center[picked.id[k]] + move) + translation;
         picked.x[k] = static_cast<float>(at.x());
         picked.y[k] = static_cast<float>(at.y());
         picked.z[k] = static_cast<float>(at.z());
@@ -52,11 +52,11 @@ void move_crushed(const CrushedIce& crushed, std::int32_t body, const Shape& sha
 
 }  // namespace
 
-FloatPose to_floats(const Mat3& turn, const Vec3& shift) {
+FloatPose to_floats(const Mat3& rotation, const Vec3& translation) {
     FloatPose out;
     for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) out.turn[r][c] = static_cast<float>(turn(r, c));
-        out.shift[r] = static_cast<float>(shift[r]);
+        for (int c = 0; c < 3; ++c) out.rotation[r][c] = static_cast<float>(rotation(r, c));
+        out.translation[r] = static_cast<float>(translation[r]);
     }
     return out;
 }
@@ -67,14 +67,14 @@ void PairSearch::pick(const PairView& view, double along, double across,
     const SphereBlocks& few = (few_a ? view.shape_a : view.shape_b).*blocks;
     const SphereBlocks& many = (few_a ? view.shape_b : view.shape_a).*blocks;
     // to and from the axes of the few
-    const Mat3 turn = few_a ? view.rotation_ab : Mat3(view.rotation_ab.transpose());
-    const Vec3 shift =
+    const Mat3 rotation = few_a ? view.rotation_ab : Mat3(view.rotation_ab.transpose());
+    const Vec3 translation =
         few_a ? view.translation_ab : Vec3(-(view.rotation_ab.transpose() * view.translation_ab));
-    const Mat3 back = turn.transpose();
+    const Mat3 back = rotation.transpose();
 
     // Floats round with the extent of the numbers, and groups hold the places before any crushing:
     // both widen the range in which spheres are picked, so none is missed.
-    const double extent = 2.0 * (few.size + 2.0 * many.size) + shift.norm();
+    const double extent = 2.0 * (few.size + 2.0 * many.size) + translation.norm();
     const double rounding = static_cast<double>(SphereBlocks::kFloatShare) * extent;
     const double slack = rounding + view.scene.crushed.deepest_of(view.pair.a) +
                          view.scene.crushed.deepest_of(view.pair.b);
@@ -85,9 +85,10 @@ void PairSearch::pick(const PairView& view, double along, double across,
     few_.count = 0;
     // Each body is narrowed by the other's box: many against the box of all few, then the few
     // against the box of the many that are left.
-    find_groups(many, move_box(few.box, back, -(back * shift)), many.largest_own + reach_, groups_);
+    find_groups(many, move_box(few.box, back, -(back * translation)), many.largest_own + reach_,
+                groups_);
     if (groups_.empty()) return;
-    pick_spheres(many, groups_, to_floats(turn, shift), few.box, reach_, many_);
+    pick_spheres(many, groups_, to_floats(rotation, translation), few.box, reach_, many_);
     if (many_.count == 0) return;
     find_groups(few, many_.box, few.largest_own + reach_few, groups_);
     pick_spheres(few, groups_, to_floats(Mat3::Identity(), Vec3::Zero()), many_.box, reach_few,
@@ -96,7 +97,7 @@ void PairSearch::pick(const PairView& view, double along, double across,
     // every sphere of its body with all within that depth. The boxes of few_ and many_ are those of
     // the places before; none of them is read from here on.
     move_crushed(view.scene.crushed, few_a ? view.pair.b : view.pair.a,
-                 few_a ? view.shape_b : view.shape_a, turn, shift, many_);
+                 few_a ? view.shape_b : view.shape_a, rotation, translation, many_);
     move_crushed(view.scene.crushed, few_a ? view.pair.a : view.pair.b,
                  few_a ? view.shape_a : view.shape_b, Mat3::Identity(), Vec3::Zero(), few_);
     range_ = {static_cast<float>(along + rounding), static_cast<float>(across + rounding)};

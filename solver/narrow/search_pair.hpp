@@ -8,8 +8,8 @@
 
 namespace ice {
 
-/// p' = turn p + shift [m], rounded to floats.
-FloatPose to_floats(const Mat3& turn, const Vec3& shift);
+/// p' = rotation p + translation [m], rounded to floats.
+FloatPose to_floats(const Mat3& rotation, const Vec3& translation);
 
 /// Finds the spheres of two bodies that are near each other; keeps its memory between pairs.
 ///

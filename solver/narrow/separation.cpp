@@ -12,13 +12,13 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The gap along plane k of `from` to a body whose axes are turned and shifted to them; where it is
-// no more than `least`, anything between.
+// The gap along plane k of `from` to a body whose axes are rotated and translated to them; where it
+// is no more than `least`, anything between.
 double gap_along(const ConvexBounds& from, std::size_t k, const ConvexBounds& other,
-                 const Mat3& turn, const Vec3& shift, double least) {
-    // n . (turn v + shift) for each corner v, with the normal turned instead of all corners
-    const Vec3 along = turn.transpose() * from.normals[k];
-    const double rest = from.normals[k].dot(shift);
+                 const Mat3& rotation, const Vec3& translation, double least) {
+    // n . (rotation v + translation) for each corner v: the normal is turned, not all corners
+    const Vec3 along = rotation.transpose() * from.normals[k];
+    const double rest = from.normals[k].dot(translation);
     double nearest = kInfinity;
     for (const Vec3& v : other.corners) {
         nearest = std::min(nearest, along.dot(v));
@@ -35,7 +35,7 @@ double separation(const PairView& view, double enough, std::size_t& axis) {
     // without bounds nothing can be ruled out
     if (!a.known() || !b.known()) return -kInfinity;
     const Mat3 back = view.rotation_ab.transpose();
-    const Vec3 shift_back = -(back * view.translation_ab);
+    const Vec3 translation_back = -(back * view.translation_ab);
     const std::size_t axes_a = a.normals.size(), axes = axes_a + b.normals.size();
     // The polyhedra bound the meshes; spheres protrude from them by at most the excess.
     const double excess = a.excess + b.excess;
@@ -43,7 +43,7 @@ double separation(const PairView& view, double enough, std::size_t& axis) {
     const auto attempt = [&](std::size_t k) {
         const double gap = k < axes_a
                                ? gap_along(a, k, b, view.rotation_ab, view.translation_ab, widest)
-                               : gap_along(b, k - axes_a, a, back, shift_back, widest);
+                               : gap_along(b, k - axes_a, a, back, translation_back, widest);
         if (gap <= widest) return;
         widest = gap;
         axis = k;
@@ -62,7 +62,7 @@ double separation(const PairView& view) {
 }
 
 double separation_share(const PairView& view) {
-    // a turn moves the other body's far end by its distance from there, and counts as
+    // a rotation moves the other body's far end by its distance from there, and counts as
     // MotionBounds::lever
     const double apart = view.translation_ab.norm();
     return std::max({1.0,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Contacts of two convex bodies as solids: all that floes have which cannot be crushed, and those
-/// of deep pairs, whose spheres have passed each other.
+/// Contacts from the polygon of two convex solids: for floes that cannot be crushed the only
+/// contacts; for pairs so deep that their spheres have passed each other, additional ones.
 #pragma once
 
 #include <span>

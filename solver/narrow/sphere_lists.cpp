@@ -13,7 +13,7 @@ constexpr std::size_t kFewest = 256;
 
 }  // namespace
 
-void SphereLists::match(const std::vector<BodyPair>& pairs) {
+void SphereLists::carry_over(const std::vector<BodyPair>& pairs) {
     if (pairs == pairs_) return;
     moved_rows_.assign(pairs.size(), Row{});
     // a pair without a row is always measured: its clearance is minus infinity

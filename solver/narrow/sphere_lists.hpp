@@ -17,11 +17,11 @@ public:
     /// The list of one pair.
     struct Row {
         // when its spheres were listed
-        Mat3 turn = Mat3::Zero();   ///< PairView's
-        Vec3 shift = Vec3::Zero();  ///< PairView's, the list's origin [m]
-        double crushed = 0.0;       ///< MotionBounds::crushed of both bodies [m]
-        double range = -1.0;        ///< all whose gap was at most this are listed [m]; < 0: none
-        double unit = 1.0;          ///< of the list [m]
+        Mat3 rotation = Mat3::Zero();     ///< PairView's
+        Vec3 translation = Vec3::Zero();  ///< PairView's, the list's origin [m]
+        double crushed = 0.0;             ///< MotionBounds::crushed of both bodies [m]
+        double range = -1.0;  ///< all whose gap was at most this are listed [m]; < 0: none
+        double unit = 1.0;    ///< of the list [m]
 
         std::size_t axis = 0;  ///< of separation(), when last measured
 
@@ -31,16 +31,16 @@ public:
     };
 
     /// Keeps the rows of pairs that are in the new list, too; both lists are sorted.
-    void match(const std::vector<BodyPair>& pairs);
+    void carry_over(const std::vector<BodyPair>& pairs);
 
-    /// Row of the k-th pair of the last match().
+    /// Row of the k-th pair of the last carry_over().
     Row& row(std::size_t k) { return rows_[k]; }
 
     /// Pair k has no contact while the sum of its bodies' MotionBounds::path_after_step is less
     /// than this [m].
     double& clearance(std::size_t k) { return clearance_[k]; }
 
-    /// Spheres of pair k that may touch; good until the next keep() or match().
+    /// Spheres of pair k that may touch; valid until the next keep() or carry_over().
     std::span<const ListedSpheres> listed(std::size_t k) const {
         return {blocks_.data() + rows_[k].first, rows_[k].count};
     }

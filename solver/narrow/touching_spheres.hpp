@@ -44,7 +44,7 @@ struct TouchingSpheres {
 
 /// Finds the listed pairs, in their order, whose gap is at most `most`,
 ///
-///     |turn c_b + shift - c_a| - (r_a + r_b) <= most,
+///     |rotation c_b + translation - c_a| - (r_a + r_b) <= most,
 ///
 /// all lengths in the list's unit.
 /// @param pose  brings b's axes to a's, from the list's origin; finite

@@ -14,10 +14,10 @@ void find_touching(std::span<const ListedSpheres> listed, const FloatPose& pose,
     for (const ListedSpheres& s : listed)
         for (std::size_t k = 0; k < ListedSpheres::kPairs; ++k) {
             const auto moved = [&](int axis) {
-                const float* row = pose.turn[axis];
+                const float* row = pose.rotation[axis];
                 // in units of the list, summed in the order of the SIMD kernel's operations
                 return (row[0] * s.bx[k] + row[1] * s.by[k]) +
-                       (row[2] * s.bz[k] + pose.shift[axis]);
+                       (row[2] * s.bz[k] + pose.translation[axis]);
             };
             const float dx = moved(0) - s.ax[k], dy = moved(1) - s.ay[k], dz = moved(2) - s.az[k];
             const float gap = std::sqrt(dx * dx + dy * dy + dz * dz) - s.radii[k];

@@ -38,10 +38,10 @@ void FindTouching(std::span<const ListedSpheres> listed, const FloatPose& pose, 
             const auto x = Get(s.bx + k), y = Get(s.by + k), z = Get(s.bz + k);
             // Mul then Add, not MulAdd: a fused product would differ from the reference
             const auto apart = [&](int axis, const std::int16_t* a) HWY_ATTR {
-                const float* row = pose.turn[axis];
-                const auto moved =
-                    hn::Add(hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y)),
-                            hn::Add(hn::Mul(hn::Set(d, row[2]), z), hn::Set(d, pose.shift[axis])));
+                const float* row = pose.rotation[axis];
+                const auto moved = hn::Add(
+                    hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y)),
+                    hn::Add(hn::Mul(hn::Set(d, row[2]), z), hn::Set(d, pose.translation[axis])));
                 return hn::Sub(moved, Get(a + k));
             };
             const auto dx = apart(0, s.ax), dy = apart(1, s.ay), dz = apart(2, s.az);

@@ -11,7 +11,7 @@ namespace ice {
 
 /// Sokal's window of a series with mean 0: the first lag W >= 5 (1/2 + sum_{k <= W} c_k / c_0)
 /// [samples].
-/// @return its length when no lag is; @pre not all values are 0
+/// @return the series' length where no lag satisfies it @pre not all values are 0
 std::size_t correlation_window(std::span<const double> x);
 
 /// I_j = |sum_t x_t exp(-2 pi i j t / n)|^2 / n for j = 1 ... count, equation (21), in the square

@@ -60,10 +60,10 @@ double worrying_overlap(const Scene& scene) {
     return 0.5 * smallest;
 }
 
-// The solids are looked at once in so many steps [-]: an overlap that contacts miss lasts for
-// seconds. A look measures all bodies by their meshes, so more of them take time; fewer miss short
-// overlaps.
-constexpr std::int64_t kLookEvery = 50;
+// The solids are checked once in so many steps [-]: an overlap that contacts miss lasts for
+// seconds. A check measures all bodies by their meshes. Fewer steps take more time; more steps miss
+// short overlaps.
+constexpr std::int64_t kCheckEvery = 50;
 
 struct CsvTable {
     std::string name;
@@ -189,8 +189,8 @@ void Recorder::add(const StepView& view) {
         view.converged ? std::nullopt
                        : std::optional(residual_impulse(view.scene.bodies, view.constraints, dt_));
     statistics_.add(record, view.time, dt_, residual);
-    if (is_look_due(view.time))
-        statistics_.add_look(measure_overlaps(view.scene, view.contacts), record, view.time);
+    if (is_check_due(view.time))
+        statistics_.add_check(measure_overlaps(view.scene, view.contacts), record, view.time);
     panel_loads_.add(view.contacts, view.constraints, view.time);
     measure_floe_forces(view.constraints, dt_, track_of_, tracked_);
     // A frame stores the ship's force on the floe, the record the floe's impulse on the ship.
@@ -204,8 +204,8 @@ void Recorder::add(const StepView& view) {
 }
 
 // Under the rule "centres" bodies are their spheres, and round the edges of their solids.
-bool Recorder::is_look_due(double time) const {
-    return parameters_.normal == NormalRule::surface && std::llround(time / dt_) % kLookEvery == 0;
+bool Recorder::is_check_due(double time) const {
+    return parameters_.normal == NormalRule::surface && std::llround(time / dt_) % kCheckEvery == 0;
 }
 
 // The ship's pose is that at the end of a row. Thrust and lines' forces are sums; flush_history()

@@ -89,7 +89,7 @@ private:
     void add_ship(const StepView& view);
     void flush_history(const StepView& view);
     void add_frame(const StepView& view);
-    bool is_look_due(double time) const;
+    bool is_check_due(double time) const;
 
     Case parameters_;
     double dt_;                       ///< time step [s]

@@ -11,8 +11,9 @@
 namespace ice {
 
 void Recorder::carry(CheckpointFile& file) {
-    // The row of the histories that is begun, and the frame: all that is not in a file yet. Names
-    // are fixed: a checkpoint is read by them, so a member may be renamed and its field may not.
+    // The row of the histories that is begun, and the frame: all that is not in a file yet. A
+    // checkpoint is read by these names: a member may be renamed alone, a field only with a new
+    // version of the format.
     file.carry("row.contact_force", row_.contact_force);
     file.carry("row.friction_force", row_.friction_force);
     file.carry("row.moment", row_.moment);
@@ -40,19 +41,19 @@ void Recorder::carry(CheckpointFile& file) {
 }
 
 void ShipStatistics::carry(CheckpointFile& file) {
-    speed_.carry(file, "ship_tally.speed");
-    thrust_.carry(file, "ship_tally.thrust");
-    tow_.carry(file, "ship_tally.tow");
-    mooring_.carry(file, "ship_tally.mooring");
-    file.carry("ship_tally.power", power_);
+    speed_.carry(file, "ship_statistics.speed");
+    thrust_.carry(file, "ship_statistics.thrust");
+    tow_.carry(file, "ship_statistics.tow");
+    mooring_.carry(file, "ship_statistics.mooring");
+    file.carry("ship_statistics.power", power_);
     for (std::size_t k = 0; k < kFreedoms; ++k) {
-        file.carry(fmt::format("ship_tally.sum.{}", k), sum_[k]);
-        file.carry(fmt::format("ship_tally.square.{}", k), square_[k]);
+        file.carry(fmt::format("ship_statistics.sum.{}", k), sum_[k]);
+        file.carry(fmt::format("ship_statistics.square.{}", k), square_[k]);
     }
     // a checkpoint has no truth values
     std::uint8_t stuck = stuck_ ? 1 : 0;
-    file.carry("ship_tally.slow_since", slow_since_);
-    file.carry("ship_tally.stuck", stuck);
+    file.carry("ship_statistics.slow_since", slow_since_);
+    file.carry("ship_statistics.stuck", stuck);
     stuck_ = stuck != 0;
 }
 
@@ -89,54 +90,57 @@ void HullContacts::carry(CheckpointFile& file) {
 
 // Sums and extremes since the start: a resumed run's means are those of an uninterrupted one.
 void RunStatistics::carry(CheckpointFile& file) {
-    for (std::size_t d = 0; d < 3; ++d) total_[d].carry(file, fmt::format("tally.total.{}", d));
-    file.carry("tally.contact", contact_);
-    file.carry("tally.friction", friction_);
-    file.carry("tally.breaking_x", breaking_x_);
-    file.carry("tally.averaged_time", averaged_time_);
-    file.column("tally.region_hits", regions_, &Region::hits);
-    file.column("tally.region_max_impulse", regions_, &Region::max_impulse);
-    file.column("tally.region_impulse", regions_, &Region::impulse);
-    file.column("tally.region_friction", regions_, &Region::friction);
+    for (std::size_t d = 0; d < 3; ++d)
+        total_[d].carry(file, fmt::format("statistics.total.{}", d));
+    file.carry("statistics.contact", contact_);
+    file.carry("statistics.friction", friction_);
+    file.carry("statistics.breaking_x", breaking_x_);
+    file.carry("statistics.averaged_time", averaged_time_);
+    file.column("statistics.region_hits", regions_, &Region::hits);
+    file.column("statistics.region_max_impulse", regions_, &Region::max_impulse);
+    file.column("statistics.region_impulse", regions_, &Region::impulse);
+    file.column("statistics.region_friction", regions_, &Region::friction);
 
     // a set goes as a table
     std::vector<std::pair<std::int32_t, std::int32_t>> touching(touching_.begin(), touching_.end());
-    file.column("tally.touching_floe", touching, &std::pair<std::int32_t, std::int32_t>::first);
-    file.column("tally.touching_region", touching, &std::pair<std::int32_t, std::int32_t>::second);
+    file.column("statistics.touching_floe", touching,
+                &std::pair<std::int32_t, std::int32_t>::first);
+    file.column("statistics.touching_region", touching,
+                &std::pair<std::int32_t, std::int32_t>::second);
     touching_ = {touching.begin(), touching.end()};
 
-    file.carry("tally.steps", steps_);
-    file.carry("tally.unconverged", unconverged_);
-    file.carry("tally.impulse", impulse_);
-    file.carry("tally.residual", residual_);
-    file.carry("tally.jam_force", jam_.force);
-    file.carry("tally.jam_averaged", jam_.steps);
-    file.carry("tally.fast_force", fast_.force);
-    file.carry("tally.fast_averaged", fast_.steps);
-    file.carry("tally.jammed_steps", jammed_steps_);
-    file.carry("tally.contacts", contacts_);
-    file.carry("tally.contacts_max", contacts_max_);
-    file.carry("tally.max_overlap", max_overlap_);
-    file.carry("tally.looks", looks_);
-    file.carry("tally.doubtful_looks", doubtful_looks_);
-    file.carry("tally.unseen_overlap", unseen_overlap_);
-    file.carry("tally.unseen_time", unseen_time_);
-    file.carry("tally.unseen_a", unseen_a_);
-    file.carry("tally.unseen_b", unseen_b_);
-    file.carry("tally.unseen_all", unseen_loads_.all);
-    file.carry("tally.unseen_doubtful", unseen_loads_.doubtful);
-    file.carry("tally.unseen_pressing", unseen_loads_.pressing);
-    file.carry("tally.unseen_missing", unseen_loads_.missing);
-    file.carry("tally.kinetic", kinetic_);
-    file.carry("tally.kinetic_max", kinetic_max_);
-    file.carry("tally.first_jam_time", first_jam_time_);
-    file.carry("tally.deepest_time", deepest_time_);
-    file.carry("tally.closing_speed", closing_speed_);
-    file.carry("tally.closing_time", closing_time_);
-    file.carry("tally.closing_a", closing_a_);
-    file.carry("tally.closing_b", closing_b_);
-    file.carry("tally.first_jam_floe", first_jam_floe_);
-    file.carry("tally.first_jam_point", first_jam_point_);
+    file.carry("statistics.steps", steps_);
+    file.carry("statistics.unconverged", unconverged_);
+    file.carry("statistics.impulse", impulse_);
+    file.carry("statistics.residual", residual_);
+    file.carry("statistics.jam_force", jam_.force);
+    file.carry("statistics.jam_averaged", jam_.steps);
+    file.carry("statistics.fast_force", fast_.force);
+    file.carry("statistics.fast_averaged", fast_.steps);
+    file.carry("statistics.jammed_steps", jammed_steps_);
+    file.carry("statistics.contacts", contacts_);
+    file.carry("statistics.contacts_max", contacts_max_);
+    file.carry("statistics.max_overlap", max_overlap_);
+    file.carry("statistics.checks", checks_);
+    file.carry("statistics.doubtful_checks", doubtful_checks_);
+    file.carry("statistics.unseen_overlap", unseen_overlap_);
+    file.carry("statistics.unseen_time", unseen_time_);
+    file.carry("statistics.unseen_a", unseen_a_);
+    file.carry("statistics.unseen_b", unseen_b_);
+    file.carry("statistics.unseen_all", unseen_loads_.all);
+    file.carry("statistics.unseen_doubtful", unseen_loads_.doubtful);
+    file.carry("statistics.unseen_pressing", unseen_loads_.pressing);
+    file.carry("statistics.unseen_missing", unseen_loads_.missing);
+    file.carry("statistics.kinetic", kinetic_);
+    file.carry("statistics.kinetic_max", kinetic_max_);
+    file.carry("statistics.first_jam_time", first_jam_time_);
+    file.carry("statistics.deepest_time", deepest_time_);
+    file.carry("statistics.closing_speed", closing_speed_);
+    file.carry("statistics.closing_time", closing_time_);
+    file.carry("statistics.closing_a", closing_a_);
+    file.carry("statistics.closing_b", closing_b_);
+    file.carry("statistics.first_jam_floe", first_jam_floe_);
+    file.carry("statistics.first_jam_point", first_jam_point_);
 }
 
 }  // namespace ice

@@ -8,7 +8,7 @@ namespace ice {
 namespace {
 
 // k(n) = 1/m_a + 1/m_b + (r_a x n) . I_a^-1 (r_a x n) + (r_b x n) . I_b^-1 (r_b x n)
-double response(const Bodies& b, const Constraint& c) {
+double inverse_effective_mass(const Bodies& b, const Constraint& c) {
     const Vec3 ta = c.arm_a.cross(c.normal), tb = c.arm_b.cross(c.normal);
     const bool ship = c.a == static_cast<std::int32_t>(kShip) && b.ship.free;
     const double of_ship = ship ? ship_response(b.ship, c.arm_a, c.normal) : 0.0;
@@ -33,9 +33,9 @@ double residual_impulse(const Bodies& bodies, const std::vector<Constraint>& con
         // where it pushes bodies apart. Contacts with an impact's impulse may separate: they
         // rebound.
         if (u < 0.0 && !c.is_at_bound())
-            sum -= u / response(bodies, c);
+            sum -= u / inverse_effective_mass(bodies, c);
         else if (u > 0.0 && c.rest_normal > 0.0 && c.impact_normal == 0.0)
-            sum += std::min(c.rest_normal, u / response(bodies, c));
+            sum += std::min(c.rest_normal, u / inverse_effective_mass(bodies, c));
     }
     return sum;
 }

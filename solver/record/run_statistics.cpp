@@ -45,7 +45,7 @@ RunStatistics::RunStatistics(StatisticsOptions options)
 
 void RunStatistics::add(const StepRecord& record, double time, double dt,
                         std::optional<double> residual) {
-    // of all steps: extremes, and the places where a user has to look
+    // of all steps, not of the averaged ones alone: a fault at the start spoils the run, too
     ++steps_;
     unconverged_ += residual ? 1 : 0;
     contacts_ += record.contacts;
@@ -71,9 +71,9 @@ void RunStatistics::add(const StepRecord& record, double time, double dt,
     add_averaged(record, dt);
 }
 
-void RunStatistics::add_look(const OverlapFound& found, const StepRecord& record, double time) {
+void RunStatistics::add_check(const OverlapFound& found, const StepRecord& record, double time) {
     // seldom, as it costs a search in the meshes: overlaps beyond those of the contacts
-    ++looks_;
+    ++checks_;
     if (found.deepest > max_overlap_) {
         max_overlap_ = found.deepest;
         deepest_time_ = time;
@@ -87,7 +87,7 @@ void RunStatistics::add_look(const OverlapFound& found, const StepRecord& record
         unseen_a_ = pair.a;
         unseen_b_ = pair.b;
     }
-    doubtful_looks_ += worrying.empty() ? 0 : 1;
+    doubtful_checks_ += worrying.empty() ? 0 : 1;
     if (is_averaged(time)) add_unseen_loads(worrying, record);
 }
 
@@ -181,8 +181,8 @@ void RunStatistics::fill(Summary& summary) const {
     summary.contacts_mean = contacts_ / steps;
     summary.contacts_max = contacts_max_;
     summary.max_overlap = max_overlap_;
-    // Without a look the key is null, not zero: nothing was measured.
-    if (looks_ > 0) summary.unseen_overlap = unseen_overlap_;
+    // Without a check the key is null, not zero: nothing was measured.
+    if (checks_ > 0) summary.unseen_overlap = unseen_overlap_;
     summary.unconverged_steps = unconverged_;
     if (impulse_ > 0.0) summary.residual_share = residual_ / impulse_;
     summary.energy["kinetic_J"] = kinetic_;

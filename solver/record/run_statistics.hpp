@@ -38,7 +38,7 @@ public:
     void add(const StepRecord& record, double time, double dt, std::optional<double> residual);
 
     /// Adds the overlaps of solids found at the end of a step, at `time` [s].
-    void add_look(const OverlapFound& found, const StepRecord& record, double time);
+    void add_check(const OverlapFound& found, const StepRecord& record, double time);
 
     /// Fills in forces, regions, contacts, energy and warnings of a summary.
     /// @pre the summary holds the ledger's energies
@@ -66,7 +66,7 @@ private:
         std::int64_t steps = 0;
     };
 
-    /// Loads on the hull at the looks of the averaged time.
+    /// Loads on the hull at the checks in the averaged time.
     struct UnseenLoads {
         double all = 0.0, doubtful = 0.0;  ///< sums along x; of floes in worrying overlaps [N s]
         std::int64_t pressing = 0;         ///< floes that press on the hull
@@ -97,8 +97,8 @@ private:
     std::set<std::pair<std::int32_t, std::int32_t>> touching_;  ///< (floe, region) of the last step
     std::int64_t steps_ = 0, unconverged_ = 0, jammed_steps_ = 0;
     double contacts_ = 0.0, contacts_max_ = 0.0, max_overlap_ = 0.0;  ///< overlap [m]
-    std::int64_t looks_ = 0,
-                 doubtful_looks_ = 0;  ///< at the solids; with a worrying unseen overlap
+    std::int64_t checks_ = 0,
+                 doubtful_checks_ = 0;  ///< of the solids; with a worrying unseen overlap
     double unseen_overlap_ = 0.0, unseen_time_ = 0.0;  ///< [m], [s]
     std::int32_t unseen_a_ = 0, unseen_b_ = 0;
     UnseenLoads unseen_loads_;

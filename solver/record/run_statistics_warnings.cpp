@@ -132,7 +132,7 @@ void RunStatistics::judge_start(Summary& summary) const {
 // the hull without pressing on it, the load of a mean floe, which it may lack.
 std::optional<double> RunStatistics::unseen_share() const {
     const UnseenLoads& u = unseen_loads_;
-    if (looks_ == 0) return std::nullopt;
+    if (checks_ == 0) return std::nullopt;
     if (u.all == 0.0 || u.pressing == 0) return u.missing > 0 ? 1.0 : 0.0;
     return std::abs(u.doubtful / u.all) +
            static_cast<double>(u.missing) / static_cast<double>(u.pressing);
@@ -165,8 +165,8 @@ Warning RunStatistics::warn_of_unseen() const {
         fmt::format("{} and floe {} overlapped by {:.3g} m more than their contacts show, at t = "
                     "{:.2f} s; {} of {} checks of the solids found such a pair: pictures and "
                     "loads on these floes are wrong; use finer ice spheres",
-                    name_of(unseen_a_), unseen_b_, unseen_overlap_, unseen_time_, doubtful_looks_,
-                    looks_),
+                    name_of(unseen_a_), unseen_b_, unseen_overlap_, unseen_time_, doubtful_checks_,
+                    checks_),
         unseen_share());
 }
 

@@ -45,7 +45,7 @@ double dominant_period(const LongSeries& whole, double dt) {
 
 void ShipStatistics::add(const FreeShip& ship, const Scene& scene, const Case& p, double time) {
     const Bodies& b = scene.bodies;
-    const Vec3 ahead = axes_of(ship.angles()).shift.col(0);
+    const Vec3 ahead = axes_of(ship.angles()).translation.col(0);
     const double speed = ahead.dot(b.velocity[kShip]);
     // stuck: slower than 0.1 m/s for ten seconds on end
     if (std::abs(speed) >= kSlow) slow_since_ = time;

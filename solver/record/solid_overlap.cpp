@@ -11,7 +11,7 @@ namespace ice {
 namespace {
 
 // With more vertices than this [-] the seats stand for them: those of a fine hull are as close as
-// its seats. More takes longer for each look; fewer may miss corners of coarse hulls.
+// its seats. More takes longer for each check; fewer may miss corners of coarse hulls.
 constexpr std::size_t kMostVertices = 1000;
 
 // A point this near to a surface is on it, and in the body [m]: rounding. Larger counts bodies that
@@ -25,15 +25,15 @@ const Shape& shape_of(const Scene& scene, std::int32_t body) {
 // A body's box in another one's axes, or in the world's for other < 0.
 Eigen::AlignedBox3d box_in(const Scene& scene, std::int32_t body, std::int32_t other) {
     const Bodies& b = scene.bodies;
-    Mat3 turn = b.rotation[body];
-    Vec3 shift = b.position[body];
+    Mat3 rotation = b.rotation[body];
+    Vec3 translation = b.position[body];
     if (other >= 0) {
-        turn = b.rotation[other].transpose() * turn;
-        shift = b.rotation[other].transpose() * (shift - b.position[other]);
+        rotation = b.rotation[other].transpose() * rotation;
+        translation = b.rotation[other].transpose() * (translation - b.position[other]);
     }
     const Eigen::AlignedBox3d& box = shape_of(scene, body).box;
-    const Vec3 middle = turn * box.center() + shift;
-    const Vec3 half = turn.cwiseAbs() * (0.5 * box.sizes());
+    const Vec3 middle = rotation * box.center() + translation;
+    const Vec3 half = rotation.cwiseAbs() * (0.5 * box.sizes());
     return {middle - half, middle + half};
 }
 
@@ -67,11 +67,12 @@ bool parted_by(const Scene& scene, std::int32_t a, std::int32_t b) {
     if (!of_a.known() || !of_b.known()) return false;
     const Bodies& bodies = scene.bodies;
     // b's plane n . x = offset in a's axes, with all of a's corners before it
-    const Mat3 turn = bodies.rotation[b].transpose() * bodies.rotation[a];
-    const Vec3 shift = bodies.rotation[b].transpose() * (bodies.position[a] - bodies.position[b]);
+    const Mat3 rotation = bodies.rotation[b].transpose() * bodies.rotation[a];
+    const Vec3 translation =
+        bodies.rotation[b].transpose() * (bodies.position[a] - bodies.position[b]);
     for (std::size_t k = 0; k < of_b.normals.size(); ++k) {
-        const Vec3 n = turn.transpose() * of_b.normals[k];
-        const double beyond = of_b.offset[k] - of_b.normals[k].dot(shift);
+        const Vec3 n = rotation.transpose() * of_b.normals[k];
+        const double beyond = of_b.offset[k] - of_b.normals[k].dot(translation);
         if (std::all_of(of_a.corners.begin(), of_a.corners.end(),
                         [&](const Vec3& p) { return n.dot(p) > beyond; }))
             return true;
@@ -88,17 +89,18 @@ struct Deepest {
 Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const Deepest& least) {
     Deepest out = least;
     const Bodies& bodies = scene.bodies;
-    const Mat3 turn = bodies.rotation[b].transpose() * bodies.rotation[a];
-    const Vec3 shift = bodies.rotation[b].transpose() * (bodies.position[a] - bodies.position[b]);
+    const Mat3 rotation = bodies.rotation[b].transpose() * bodies.rotation[a];
+    const Vec3 translation =
+        bodies.rotation[b].transpose() * (bodies.position[a] - bodies.position[b]);
     const Shape &points = shape_of(scene, a), &solid = shape_of(scene, b);
     const Eigen::AlignedBox3d seen = box_in(scene, b, a);
     Vec3 shallow = Vec3::Zero();  // a point in b's axes; none within `room` of it is deeper
     double room = 0.0;
-    const auto look = [&](const Vec3& at, std::int32_t sphere) {  // -1: a vertex
+    const auto add_point = [&](const Vec3& at, std::int32_t sphere) {  // -1: a vertex
         // two cheap tests first; a point within `room` of a shallow one is no deeper than the
         // best
         if (!seen.contains(at)) return;
-        const Vec3 p = turn * at + shift;
+        const Vec3 p = rotation * at + translation;
         if (!solid.box.contains(p) || (p - shallow).norm() < room) return;
         const Foot foot = solid.surface->closest(p);
         double depth = foot.inside ? foot.distance : -foot.distance;
@@ -114,11 +116,11 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         const Vec3 center = points.center[k] + scene.crushed.displacement_of(a, k);
         // crushing has driven it right through its body
         if (!scene.crushed.is_whole(a) && !points.box.contains(center)) continue;
-        look(center + points.radius[k] * points.normal[k], k);
+        add_point(center + points.radius[k] * points.normal[k], k);
     }
     // a vertex of crushed ice may be gone
     if (scene.crushed.is_whole(a) && points.mesh.vertices.size() <= kMostVertices)
-        for (const Vec3& v : points.mesh.vertices) look(v, -1);
+        for (const Vec3& v : points.mesh.vertices) add_point(v, -1);
     return out;
 }
 

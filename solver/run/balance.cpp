@@ -106,16 +106,16 @@ double imbalance_of_ship(const Momenta& before, const World& w, const StepRecord
     const Vec3 ice = reported.contact_force + reported.friction_force;
     // about the centre of gravity, as (S1); the report's moment is about the mesh's origin
     const Vec3 ice_moment = reported.moment - b.ship.centre.cross(ice);
-    const Mat3 to_axes = axes.shift.transpose(), to_rates = axes.turn.inverse();
+    const Mat3 to_axes = axes.translation.transpose(), to_rates = axes.rotation.inverse();
     // Equations of motion in the ship's axes: along the axes that answer, the change of M v is the
     // impulse of loads and ice. Fixed axes are left out, their reaction is unknown.
-    const double linear = off_balance(body, surge, masses.shift, to_axes * w.ship.velocity_start(),
-                                      to_axes * b.velocity[kShip],
-                                      dt * (to_axes * (loads.force + ice)), contacts.linear.size);
+    const double linear = off_balance(
+        body, surge, masses.translation, to_axes * w.ship.velocity_start(),
+        to_axes * b.velocity[kShip], dt * (to_axes * (loads.force + ice)), contacts.linear.size);
     const double angular =
-        off_balance(body, roll, masses.turn, to_rates * w.ship.spin_start(),
+        off_balance(body, roll, masses.rotation, to_rates * w.ship.spin_start(),
                     to_rates * b.angular_velocity[kShip],
-                    dt * (axes.turn.transpose() * (loads.moment + ice_moment)),
+                    dt * (axes.rotation.transpose() * (loads.moment + ice_moment)),
                     contacts.angular.size + b.ship.centre.norm() * contacts.linear.size);
     return std::max(linear, angular);
 }

@@ -9,9 +9,9 @@
 namespace ice {
 
 /// Gives the floes of a scene, but those held for good, the added mass of their forms in deep water
-/// (equation (P2)): shifts in Inertia::added, turns in Inertia::body. The coupling of shifts and
-/// turns about the centre of mass is left out: docs/method.md, section 6. Velocities stay, momenta
-/// become those of floe and water. Each form is computed once.
+/// (equation (P2)): translation in Inertia::added, rotation in Inertia::body. The coupling of both
+/// about the centre of mass is left out: docs/method.md, section 6. Velocities stay, momenta become
+/// those of floe and water. Each form is computed once.
 /// @pre 3D; all floes are there, pieces of level ice that break off later get theirs by add_water()
 /// @throws Error (exit code 1) where the flow around a form has no solution
 void set_added_mass(Scene& scene, const Case& parameters);

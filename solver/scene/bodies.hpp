@@ -23,7 +23,7 @@ struct Inertia {
     Mat3 body;       ///< [kg m2]
     Mat3 inverse;    ///< of `body` [1/(kg m2)]; 2D: about y only
     // of floes that move water along (set_added_mass), else unused; `body` has its part of it then
-    Mat3 added = Mat3::Zero();           ///< A: mass of that water, of shifts [kg]
+    Mat3 added = Mat3::Zero();           ///< A: added mass in translation [kg]
     Mat3 inverse_excess = Mat3::Zero();  ///< (m + A)^-1 - 1/m, at most 0 [1/kg]
 };
 

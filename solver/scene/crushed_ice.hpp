@@ -19,7 +19,7 @@ struct CrushedIce {
     std::vector<double> deepest;     ///< by body, as long as `first`: its longest displacement [m]
 
     /// Spheres that have moved since Recess::move_spheres() began the list anew: their bodies and
-    /// shifts. MotionBounds reads it, as the motion of surfaces.
+    /// the lengths of their moves. MotionBounds reads it, as the motion of surfaces.
     struct CrushEvent {
         std::int32_t body;
         double depth;  ///< [m]

@@ -46,8 +46,8 @@ bool list_normals(const TriangleMesh& mesh, std::vector<Vec3>& out) {
 // Is no corner before a facet, and no sphere by more than `excess`? Then the space behind all
 // facets is the corners' hull, and a sphere, which is so but for a part of its radius, reaches out
 // of it by that part. Sharp edges between facets only just not in one plane are right to 1e6 kFlat.
-bool hold_all(const TriangleMesh& mesh, const std::vector<Vec3>& corners,
-              std::span<const BoundedSphere> spheres, double excess) {
+bool enclose_all(const TriangleMesh& mesh, const std::vector<Vec3>& corners,
+                 std::span<const BoundedSphere> spheres, double excess) {
     // Rounding of a corner's height over a facet of its own face [m]. Larger takes meshes for
     // convex that are hollow by as much, smaller only costs time: separation() then proves less.
     constexpr double kFlat = 1e-13;
@@ -102,7 +102,7 @@ ConvexBounds::ConvexBounds(const TriangleMesh& mesh, std::span<const BoundedSphe
         const double beyond = s.tip.norm() * (1.0 - share_within(*this, s));
         if (beyond > kSettled) excess = std::max(excess, beyond);
     }
-    hold_spheres = hold_all(mesh, corners, spheres, excess);
+    enclose_spheres = enclose_all(mesh, corners, spheres, excess);
 }
 
 }  // namespace ice

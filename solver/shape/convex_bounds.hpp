@@ -34,7 +34,7 @@ struct ConvexBounds {
     /// No sphere reaches out of the corners' convex hull by more than that, in any direction: the
     /// mesh, closed, is convex. Of two such bodies, whole, separation() is at most the least gap of
     /// their spheres.
-    bool hold_spheres = false;
+    bool enclose_spheres = false;
 
     /// Shapes without bounds are always searched.
     bool known() const { return !corners.empty(); }

@@ -12,13 +12,13 @@ namespace ice {
 namespace {
 
 // Normals this near (cosine; 2.6 degrees) in planes this near (radii) [-] are of one face: the
-// hull's are curved. Looser ones take a neighbouring face for the own one, which then has no border
-// there; stricter ones end a curved face at each of its facets.
+// hull's are curved. Looser ones take a neighbouring face for the own one, which then has no side
+// plane there; stricter ones end a curved face at each of its facets.
 constexpr double kOneFace = 0.999, kOnePlane = 0.1;
 
 // Planes this near (cosine, radii) [-] are one: spheres along a straight edge differ by rounding.
 // Only the number of planes to test depends on it.
-constexpr double kSameBorderNormal = 1.0 - 1e-9, kBorderRounding = 1e-6;
+constexpr double kSamePlaneNormal = 1.0 - 1e-9, kSamePlaneRounding = 1e-6;
 
 // A plane that leaves this much (radii) [-] of another edge's sphere before it cuts nothing off.
 // Larger lets planes cut hollow outlines; smaller drops planes for rounding.
@@ -30,9 +30,10 @@ struct Face {
     double offset;  // normal . x in it
 };
 
-class BorderFinder {
+class SidePlaneFinder {
 public:
-    BorderFinder(const Shape& shape, const std::vector<std::int32_t>& edges, const SphereGrid& grid)
+    SidePlaneFinder(const Shape& shape, const std::vector<std::int32_t>& edges,
+                    const SphereGrid& grid)
         : shape_(shape), edges_(edges), grid_(grid) {}
 
     // The planes that end the patch of sphere k; valid until the next call.
@@ -108,8 +109,8 @@ private:
     }
     bool is_new(const Face& face, std::size_t k, const std::vector<Face>& known) const {
         return std::none_of(known.begin(), known.end(), [&](const Face& f) {
-            return f.normal.dot(face.normal) > kSameBorderNormal &&
-                   std::abs(f.offset - face.offset) <= kBorderRounding * shape_.radius[k];
+            return f.normal.dot(face.normal) > kSamePlaneNormal &&
+                   std::abs(f.offset - face.offset) <= kSamePlaneRounding * shape_.radius[k];
         });
     }
     // Does all that is known of the face lie before the plane?
@@ -138,7 +139,7 @@ SidePlanes::SidePlanes(const Shape& shape) {
         centers.push_back(shape.center[k]);
     }
     const SphereGrid grid(centers, 2.0 * shape.patch_radius);
-    BorderFinder finder(shape, edges, grid);
+    SidePlaneFinder finder(shape, edges, grid);
     first_.push_back(0);
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
         for (const Face& face : finder.of(k)) planes_.push_back({face.normal, face.offset});

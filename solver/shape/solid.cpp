@@ -137,14 +137,14 @@ std::vector<std::int32_t> loop_round(const std::vector<SolidEdge>& edges, std::i
     return loop;
 }
 
-std::vector<FaceBorder> borders_of(const std::vector<std::int32_t>& loop, const Vec3& normal,
-                                   const std::vector<Vec3>& corners) {
-    std::vector<FaceBorder> out;
+std::vector<SidePlane> side_planes_of(const std::vector<std::int32_t>& loop, const Vec3& normal,
+                                      const std::vector<Vec3>& corners) {
+    std::vector<SidePlane> out;
     for (std::size_t k = 0; k < loop.size(); ++k) {
         const Vec3 &from = corners[static_cast<std::size_t>(loop[k])],
                    &to = corners[static_cast<std::size_t>(loop[(k + 1) % loop.size()])];
         const Vec3 outward = (to - from).normalized().cross(normal);
-        // the farther end, so that no corner of the face is beyond its border by rounding
+        // the farther end, so that no corner of the face is beyond its side plane by rounding
         out.push_back({outward, std::max(ordered_dot(outward, from), ordered_dot(outward, to))});
     }
     return out;
@@ -182,7 +182,7 @@ ConvexPiece make_convex_piece(const TriangleMesh& mesh) {
         // a face without a closed loop of edges: the planes bound no convex solid
         out.loops.push_back(loop_round(out.edges, static_cast<std::int32_t>(normals.size())));
         if (out.loops.back().empty()) return {};
-        out.borders.push_back(borders_of(out.loops.back(), p.normal, points));
+        out.side_planes.push_back(side_planes_of(out.loops.back(), p.normal, points));
         normals.push_back(p.normal);
         out.offsets.push_back(p.offset);
     }

@@ -45,10 +45,10 @@ struct SolidEdge {
     std::int32_t left, right;  ///< planes; from begin to end it goes along n_left x n_right
 };
 
-/// The border of a face along one of its edges: the plane through the edge, upright on the face.
-struct FaceBorder {
+/// A side plane of a face: the plane through one of its edges, upright on the face.
+struct SidePlane {
     Vec3 outward;   ///< unit, out of the face
-    double offset;  ///< outward . x on the border [m]
+    double offset;  ///< outward . x on the plane [m]
 };
 
 /// A convex polyhedron: planes, corners and edges; body axes.
@@ -68,8 +68,8 @@ struct ConvexPiece {
     VectorBlocks edge_middle;            ///< of the edges: midway between the two corners [m]
     VectorBlocks edge_along;             ///< unit vector from begin to end
     VectorBlocks edge_left, edge_right;  ///< normals of the planes left and right
-    std::vector<std::vector<std::int32_t>> loops;  ///< corners round each plane, anticlockwise
-    std::vector<std::vector<FaceBorder>> borders;  ///< by plane, from each corner of its loop on
+    std::vector<std::vector<std::int32_t>> loops;     ///< corners round each plane, anticlockwise
+    std::vector<std::vector<SidePlane>> side_planes;  ///< by plane, from each corner of its loop on
 
     std::size_t plane_count() const { return normals.size(); }
     bool empty() const { return normals.size() == 0; }

@@ -40,7 +40,7 @@ public:
         const ShipAngles angles(a[1], a[2], 0.0);
         const ShipAxes axes = axes_of(angles);
         const FloatingForce f = floating(a);
-        return {f.lift, axes.turn.col(0).dot(f.moment), axes.turn.col(1).dot(f.moment)};
+        return {f.lift, axes.rotation.col(0).dot(f.moment), axes.rotation.col(1).dot(f.moment)};
     }
     FloatingForce floating(const Attitude& a) const {
         const Mat3 r = orientation_of(ShipAngles(a[1], a[2], 0.0)).toRotationMatrix();

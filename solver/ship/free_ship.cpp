@@ -62,12 +62,12 @@ void FreeShip::start_step(const Case& p, Scene& scene, double time) {
         // The free motions go on with the velocity of the last step; the others follow the
         // course.
         const ShipAxes axes = axes_of(angles_);
-        const Vec3 along = axes.shift.transpose() * velocity_;
+        const Vec3 along = axes.translation.transpose() * velocity_;
         Vec3 velocity = free_part(rig_->body, surge, along);
         if (!rig_->body.free[surge]) velocity += course;
-        const Vec3 rates = free_part(rig_->body, roll, axes.turn.inverse() * spin_);
-        b.velocity[kShip] = axes.shift * velocity;
-        b.angular_velocity[kShip] = axes.turn * rates;
+        const Vec3 rates = free_part(rig_->body, roll, axes.rotation.inverse() * spin_);
+        b.velocity[kShip] = axes.translation * velocity;
+        b.angular_velocity[kShip] = axes.rotation * rates;
         // response to impulses with the matrices at the step's start, (S1)
         b.ship = response_of(rig_->body, angles_);
         if (!energies_.kinetic_start) {
@@ -101,15 +101,16 @@ void FreeShip::apply_loads(const Case& p, Scene& scene, double time) {
     // the integral of the error for `hold_speed`
     if (!std::isnan(p.propulsion.hold_speed))
         speed_error_ += p.time_step * (p.propulsion.hold_speed -
-                                       axes_of(angles_).shift.col(0).dot(b.velocity[kShip]));
+                                       axes_of(angles_).translation.col(0).dot(b.velocity[kShip]));
 }
 
 // (M + dt D / 2) dv = dt (F - D v): damping by the mean of the velocities before and after the
 // loads, which neither overshoots nor changes what it damps to second order.
 void FreeShip::add_damping(const Case& p, Scene& scene) {
     const Bodies& b = scene.bodies;
-    const Vec3 shift = of_three(rig_->damping, surge), turn = of_three(rig_->damping, roll);
-    if (shift.isZero(0.0) && turn.isZero(0.0)) return;
+    const Vec3 translation = of_three(rig_->damping, surge),
+               rotation = of_three(rig_->damping, roll);
+    if (translation.isZero(0.0) && rotation.isZero(0.0)) return;
     const double dt = p.time_step;
     const ShipAxes axes = axes_of(angles_);
     const ShipMasses masses = masses_of(rig_->body, angles_);
@@ -122,15 +123,16 @@ void FreeShip::add_damping(const Case& p, Scene& scene) {
         return -by.cwiseProduct(free_part(rig_->body, first, rate) + 0.5 * change);
     };
     // through the water: damping of a ship that drifts with the current is zero
-    const Vec3 through_water = axes.shift.transpose() * (b.velocity[kShip] - scene.water.current);
-    const Vec3 rates = axes.turn.inverse() * b.angular_velocity[kShip];
-    const Vec3 force =
-        damped(surge, masses.shift, shift, through_water, axes.shift.transpose() * others.force);
+    const Vec3 through_water =
+        axes.translation.transpose() * (b.velocity[kShip] - scene.water.current);
+    const Vec3 rates = axes.rotation.inverse() * b.angular_velocity[kShip];
+    const Vec3 force = damped(surge, masses.translation, translation, through_water,
+                              axes.translation.transpose() * others.force);
     const Vec3 moment =
-        damped(roll, masses.turn, turn, rates, axes.turn.transpose() * others.moment);
+        damped(roll, masses.rotation, rotation, rates, axes.rotation.transpose() * others.moment);
     // back to world axes: the angles' own are not at right angles where the ship trims
-    loads_.losses.force += axes.shift * force;
-    loads_.losses.moment += axes.turn.transpose().inverse() * moment;
+    loads_.losses.force += axes.translation * force;
+    loads_.losses.moment += axes.rotation.transpose().inverse() * moment;
 }
 
 void FreeShip::enter_step(const Scene& scene, const std::vector<Constraint>& constraints,
@@ -141,8 +143,9 @@ void FreeShip::enter_step(const Scene& scene, const std::vector<Constraint>& con
     // (S3): each force times the mean of the step's first and last velocity, free motions only
     const Vec3 mean = 0.5 * (velocity_start_ + b.velocity[kShip]);
     const Vec3 mean_spin = 0.5 * (spin_start_ + b.angular_velocity[kShip]);
-    const Vec3 v = axes.shift * free_part(rig_->body, surge, axes.shift.transpose() * mean);
-    const Vec3 w = axes.turn * free_part(rig_->body, roll, axes.turn.inverse() * mean_spin);
+    const Vec3 v =
+        axes.translation * free_part(rig_->body, surge, axes.translation.transpose() * mean);
+    const Vec3 w = axes.rotation * free_part(rig_->body, roll, axes.rotation.inverse() * mean_spin);
     const auto work = [&](const ShipForce& f) { return dt * (f.force.dot(v) + f.moment.dot(w)); };
     energies_.thrust += work(loads_.propulsion);
     energies_.tow += work(loads_.tow);
@@ -166,15 +169,16 @@ void FreeShip::turn(Scene& scene, const PositionCorrections& corrections, double
     const ShipMasses masses = masses_of(rig_->body, angles_);
     velocity_ = b.velocity[kShip];
     spin_ = b.angular_velocity[kShip];
-    const Vec3 rates = axes.turn.inverse() * spin_;
+    const Vec3 rates = axes.rotation.inverse() * spin_;
     // momenta in world axes, for the checks and the hash; the state is velocity and angles
-    b.momentum[kShip] = axes.shift * (masses.shift * (axes.shift.transpose() * velocity_));
-    b.angular_momentum[kShip] = axes.turn.transpose().inverse() * (masses.turn * rates);
-    const Vec3 shift = axes.shift.transpose() * corrections.shift[kShip];
-    b.position[kShip] += axes.shift * free_part(rig_->body, surge, shift);
+    b.momentum[kShip] =
+        axes.translation * (masses.translation * (axes.translation.transpose() * velocity_));
+    b.angular_momentum[kShip] = axes.rotation.transpose().inverse() * (masses.rotation * rates);
+    const Vec3 shift = axes.translation.transpose() * corrections.shift[kShip];
+    b.position[kShip] += axes.translation * free_part(rig_->body, surge, shift);
     if (!rig_->body.turns()) return;
     // `centre` stays that of the step, as its contacts have it
-    const Vec3 turn = dt * rates + axes.turn.inverse() * corrections.turn[kShip];
+    const Vec3 turn = dt * rates + axes.rotation.inverse() * corrections.turn[kShip];
     const ShipAngles turned = angles_ + free_part(rig_->body, roll, turn);
     const Vec3 after = orientation_of(turned).toRotationMatrix() * rig_->body.centre_of_gravity;
     place(scene, b.position[kShip].z() + (b.ship.centre - after).z(), turned);
@@ -184,9 +188,9 @@ double FreeShip::kinetic_energy(const Bodies& b) const {
     if (!answers()) return 0.0;
     const ShipAxes axes = axes_of(angles_);
     const ShipMasses masses = masses_of(rig_->body, angles_);
-    const Vec3 v = free_part(rig_->body, surge, axes.shift.transpose() * b.velocity[kShip]);
-    const Vec3 w = free_part(rig_->body, roll, axes.turn.inverse() * b.angular_velocity[kShip]);
-    return 0.5 * (quadratic(v, masses.shift) + quadratic(w, masses.turn));
+    const Vec3 v = free_part(rig_->body, surge, axes.translation.transpose() * b.velocity[kShip]);
+    const Vec3 w = free_part(rig_->body, roll, axes.rotation.inverse() * b.angular_velocity[kShip]);
+    return 0.5 * (quadratic(v, masses.translation) + quadratic(w, masses.rotation));
 }
 
 double FreeShip::potential_energy(const Scene& scene, const Case& p) const {

@@ -51,9 +51,9 @@ ShipBody make_ship_body(const Case& p, const Scene& scene) {
     out.gyration = p.ship.gyration.hasNaN() ? usual : p.ship.gyration;
     out.inertia = out.mass * out.gyration.cwiseAbs2();
     for (int k = 0; k < 3; ++k) {
-        const auto shift = static_cast<std::size_t>(k), turn = shift + 3;
-        out.added[shift] = p.ship.added_mass[shift] * out.mass;
-        out.added[turn] = p.ship.added_mass[turn] * out.inertia[k];
+        const auto translation = static_cast<std::size_t>(k), rotation = translation + 3;
+        out.added[translation] = p.ship.added_mass[translation] * out.mass;
+        out.added[rotation] = p.ship.added_mass[rotation] * out.inertia[k];
     }
     // later sources replace earlier ones: shares of the mass, computed from the hull, a given
     // matrix
@@ -75,13 +75,13 @@ Quaternion orientation_of(const ShipAngles& a) {
 }
 
 ShipAxes axes_of(const ShipAngles& a) {
-    // Shifts lie along the heading, level, and up; roll about the ship's own axis, pitch about
-    // its level one, yaw about the vertical: the axes of R = R_z R_y R_x.
+    // Translations are along the heading, level, and up; roll about the ship's own axis, pitch
+    // about its level one, yaw about the vertical: the axes of R = R_z R_y R_x.
     ShipAxes out;
     if (a.isZero(0.0)) return out;
-    out.shift = exponential_map(Vec3(0.0, 0.0, a[2])).toRotationMatrix();
-    out.turn.col(0) = orientation_of(a).toRotationMatrix().col(0);
-    out.turn.col(1) = out.shift.col(1);
+    out.translation = exponential_map(Vec3(0.0, 0.0, a[2])).toRotationMatrix();
+    out.rotation.col(0) = orientation_of(a).toRotationMatrix().col(0);
+    out.rotation.col(1) = out.translation.col(1);
     return out;
 }
 
@@ -89,12 +89,14 @@ ShipMasses masses_of(const ShipBody& body, const ShipAngles& a) {
     const ShipAxes axes = axes_of(a);
     const Mat3 r = orientation_of(a).toRotationMatrix();
     const Vec3 added(body.added[surge], body.added[sway], body.added[heave]);
-    const Vec3 added_turn(body.added[roll], body.added[pitch], body.added[yaw]);
+    const Vec3 added_rotation(body.added[roll], body.added[pitch], body.added[yaw]);
     // mass and inertia are the ship's, given in its own axes, turned into those of the motions
-    const Mat3 to_ship = r.transpose() * axes.shift, turn = r.transpose() * axes.turn;
+    const Mat3 to_ship = r.transpose() * axes.translation, rotation = r.transpose() * axes.rotation;
     ShipMasses out;
-    out.shift = body.mass * Mat3::Identity() + to_ship.transpose() * added.asDiagonal() * to_ship;
-    out.turn = turn.transpose() * Vec3(body.inertia + added_turn).asDiagonal() * turn;
+    out.translation =
+        body.mass * Mat3::Identity() + to_ship.transpose() * added.asDiagonal() * to_ship;
+    out.rotation =
+        rotation.transpose() * Vec3(body.inertia + added_rotation).asDiagonal() * rotation;
     return out;
 }
 
@@ -122,10 +124,10 @@ ShipResponse response_of(const ShipBody& body, const ShipAngles& angles) {
     const ShipMasses masses = masses_of(body, angles);
     ShipResponse out;
     out.free = body.any_free();
-    out.inverse_mass =
-        axes.shift * inverse_on_free(masses.shift, body, surge) * axes.shift.transpose();
+    out.inverse_mass = axes.translation * inverse_on_free(masses.translation, body, surge) *
+                       axes.translation.transpose();
     out.inverse_inertia =
-        axes.turn * inverse_on_free(masses.turn, body, roll) * axes.turn.transpose();
+        axes.rotation * inverse_on_free(masses.rotation, body, roll) * axes.rotation.transpose();
     out.least_response = 1.0 / body.mass;
     out.centre = orientation_of(angles).toRotationMatrix() * body.centre_of_gravity;
     return out;

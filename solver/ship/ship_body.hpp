@@ -46,17 +46,17 @@ using ShipAngles = Vec3;
 /// Orientation of a ship with these angles.
 Quaternion orientation_of(const ShipAngles& angles);
 
-/// Axes of the motions in the world: of surge, sway and heave in the columns of `shift` (they turn
-/// with yaw alone), of roll, pitch and yaw in those of `turn`. The angular velocity is `turn` times
-/// the rates of roll, pitch, yaw.
+/// Axes of the motions in the world: of surge, sway and heave in the columns of `translation` (they
+/// turn with yaw alone), of roll, pitch and yaw in those of `rotation`. The angular velocity is
+/// `rotation` times the rates of roll, pitch, yaw.
 struct ShipAxes {
-    Mat3 shift = Mat3::Identity(), turn = Mat3::Identity();
+    Mat3 translation = Mat3::Identity(), rotation = Mat3::Identity();
 };
 ShipAxes axes_of(const ShipAngles& angles);
 
-/// Mass matrices in those axes: generalised mass of shifts [kg] and of turns [kg m2].
+/// Mass matrices in those axes: generalised mass of translations [kg] and of rotations [kg m2].
 struct ShipMasses {
-    Mat3 shift, turn;
+    Mat3 translation, rotation;
 };
 ShipMasses masses_of(const ShipBody& body, const ShipAngles& angles);
 

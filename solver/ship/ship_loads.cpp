@@ -51,7 +51,7 @@ void set_damping(const Case& p, ShipRig& rig) {
         // itself
         const auto i = static_cast<std::size_t>(k);
         if (!rig.body.free[i]) continue;
-        const double mass = k < 3 ? masses.shift(k, k) : masses.turn(k - 3, k - 3);
+        const double mass = k < 3 ? masses.translation(k, k) : masses.rotation(k - 3, k - 3);
         const bool springs = stiffness[i] > 0.0;
         rig.damping[i] =
             p.ship.damping[i] * (springs ? 2.0 * std::sqrt(stiffness[i] * mass) : 1.0) +
@@ -68,7 +68,7 @@ void set_damping(const Case& p, ShipRig& rig) {
 // Along the heading, at the centre of gravity: a thrust does not trim the ship.
 void add_propulsion(const Case& p, const ShipRig& rig, const ShipState& s, const ShipAxes& axes,
                     const Vec3& current, double speed_error, ShipLoads& out) {
-    const Vec3 ahead = axes.shift.col(0);
+    const Vec3 ahead = axes.translation.col(0);
     const double through_water = ahead.dot(s.velocity - current);
     const double tau = rig.answer_time;
     if (std::isnan(p.propulsion.hold_speed)) {
@@ -108,13 +108,13 @@ void add_mooring(const Case& p, const ShipRig& rig, const ShipState& s, const Ma
     const ShipAngles turned = s.angles - rig.anchor_angles;
     Vec3 along;  // the motions' generalised moments
     for (int k = 0; k < 3; ++k) {
-        const auto shift = static_cast<std::size_t>(k), turn = shift + 3;
-        out.mooring.force[k] = p.mooring.pretension[shift] - p.mooring.stiffness[shift] * off[k];
-        along[k] = p.mooring.pretension[turn] - p.mooring.stiffness[turn] * turned[k];
+        const auto linear = static_cast<std::size_t>(k), angular = linear + 3;
+        out.mooring.force[k] = p.mooring.pretension[linear] - p.mooring.stiffness[linear] * off[k];
+        along[k] = p.mooring.pretension[angular] - p.mooring.stiffness[angular] * turned[k];
     }
     // The angles are no components of one rotation. M is the moment whose parts along the three
-    // axes of the angles are the generalised moments, turn^T M = along.
-    if (!along.isZero(0.0)) out.mooring.moment = axes.turn.transpose().inverse() * along;
+    // axes of the angles are the generalised moments, axes.rotation^T M = along.
+    if (!along.isZero(0.0)) out.mooring.moment = axes.rotation.transpose().inverse() * along;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 One thread. Of a round all ships run one after the other, so that other load of the machine meets
 all alike; printed are the medians. The contacts differ a little where the ship heaves or pitches,
-as it gives way.
+as the ice moves it.
 """
 import argparse
 import os

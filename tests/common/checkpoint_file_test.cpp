@@ -197,11 +197,11 @@ TEST_CASE("a newer format and another kind of file are told apart from damage",
         }
         return std::string();
     };
-    CHECK_THAT(message_of("icesolve-checkpoint", 2),
-               Catch::Contains("format_version 2") && Catch::Contains("icesolve 9.9.9"));
+    CHECK_THAT(message_of("icesolve-checkpoint", 3),
+               Catch::Contains("format_version 3") && Catch::Contains("icesolve 9.9.9"));
     CHECK_THAT(message_of("icesolve-spheres", 1), Catch::Contains("not a checkpoint"));
     // a field that this program carries and the other did not
-    CHECK_THAT(message_of("icesolve-checkpoint", 1),
+    CHECK_THAT(message_of("icesolve-checkpoint", 2),
                Catch::Contains("has no field time") && Catch::Contains("icesolve 9.9.9"));
 }
 

@@ -63,7 +63,8 @@ TEST_CASE("a step that has seen as much before allocates nothing", "[step][alloc
     const World start = w;
     std::size_t contacts = 0;
     long before = 0;
-    // the first rounds find out how much memory is needed; pairs are dormant in other steps then
+    // the first rounds find out how much memory is needed; pairs are within
+    // their clearance in other steps then
     for (int round = 0; round < 10; ++round) {
         w.scene = start.scene;
         before = allocations;

@@ -316,7 +316,7 @@ TEST_CASE("a push that goes on through more floes than there are solutions is no
     row.check_moved(6, 0.0002, 0.5);
 }
 
-TEST_CASE("ice that two hull spheres crush in one place gives way once", "[contact][crushing]") {
+TEST_CASE("ice that two hull spheres crush in one place is displaced once", "[contact][crushing]") {
     World w = test::plate_world(test::empty_space(0.01), Vec3(4, 4, 0.4), 0.1, 0.2, 0.0);
     const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 1, 0.4), 0.05, 0.1));
     add_floe(w.scene, box, 900.0, Vec3(0, 0, -0.19), Quaternion::Identity(), 0, false);

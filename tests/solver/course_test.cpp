@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the hull lies, whether it meets the ice, and which channels give way.
+// Where the hull lies, whether it meets the ice, and which channels are closed.
 //
 // Tolerances: 0.02 is twice kCell over the 20 m of the average; 1e-9 m is rounding of places of 10
 // m, with a reserve.

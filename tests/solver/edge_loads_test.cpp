@@ -65,7 +65,7 @@ TEST_CASE("a long way through level ice takes no more memory than what is within
     World w = make_world(p);
     std::size_t corners = 0, recesses = 0;
     std::int64_t alive = 0;
-    const auto look = [&](double until) {
+    const auto run_until = [&](double until) {
         corners = recesses = 0;
         alive = 0;
         while (w.time < until) {
@@ -77,14 +77,14 @@ TEST_CASE("a long way through level ice takes no more memory than what is within
             alive = std::max(alive, w.edge.alive());
         }
     };
-    look(20.0);
+    run_until(20.0);
     const std::size_t corners_then = corners, recesses_then = recesses;
     const std::int64_t alive_then = alive;
     REQUIRE(w.edge.retired() > 0);
     const std::int64_t gone_then = w.edge.retired();
     const TempFolder folder;
     w.edge.keep_gone_in(folder / "");
-    look(40.0);
+    run_until(40.0);
     CAPTURE(corners, corners_then, recesses, recesses_then, alive, alive_then);
     CHECK(static_cast<double>(corners) < 1.5 * static_cast<double>(corners_then));
     CHECK(static_cast<double>(recesses) < 2.0 * static_cast<double>(recesses_then));

@@ -206,12 +206,12 @@ TEST_CASE("an edge on a face's corner, between two of its spheres, crosses the f
           Near(0.06 * 0.06));
     CHECK((found.reference_is_a ? found.incident_offset_sq : found.reference_offset_sq) ==
           Near(2 * 0.03 * 0.03));
-    // where the corner is over all that the edge's sphere stands for it is the probe
+    // where the corner is over all that the edge's sphere stands for it is the incident one
     edge.patch_radius = corner.patch_radius = 0.1;
     CHECK_FALSE(measure_gap_surface(edge, corner, true).crossing);
 }
 
-TEST_CASE("an edge that leans a little on a face is met where it crosses the face's border",
+TEST_CASE("an edge that leans a little on a face is met where it crosses the face's side plane",
           "[narrow][edges][analytic]") {
     // Lower edges of two boxes cross at the origin, at 10 degrees, the second box tilted so that
     // its lower edge is foremost. The spheres are 5 cm from there, where the second edge is over

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ice that is held for good gives way to the ship by crushing alone.
+// Ice that is held for good moves for the ship by crushing alone.
 //
 // Tolerances: 1e-6 is a normal stored as a float.
 #include <catch2/catch.hpp>

@@ -26,7 +26,7 @@ World two_floes(double size, double dt, const Vec3& place,
     return w;
 }
 
-OverlapFound look(const World& w, const std::vector<Contact>& contacts = {}) {
+OverlapFound measure(const World& w, const std::vector<Contact>& contacts = {}) {
     return measure_overlaps(w.scene, contacts);
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("solids in each other are measured exactly where they are convex, seen
     // no contact of a finder is asked for: any depth counts
     const double depth = GENERATE(0.003, 0.06, 0.15, 0.3);
     const World w = two_floes(1.0, 0.01, Vec3(1.0 - depth, 0.1, 0.05));
-    const OverlapFound found = look(w);
+    const OverlapFound found = measure(w);
     // no deeper than half of what the floes share: from there the other faces are nearer
     const double expected = std::min(depth, 0.125);
     CAPTURE(depth);
@@ -73,27 +73,27 @@ TEST_CASE("what contacts know of an overlap is not unseen, and crushed ice is no
     contact.a = 1;
     contact.b = 2;
     contact.gap = -0.05;
-    REQUIRE(look(w, {contact}).unseen.size() == 1);
-    CHECK(look(w, {contact}).unseen[0].depth == Near(0.01).margin(1e-12));
+    REQUIRE(measure(w, {contact}).unseen.size() == 1);
+    CHECK(measure(w, {contact}).unseen[0].depth == Near(0.01).margin(1e-12));
     contact.gap = -0.061;
-    CHECK(look(w, {contact}).unseen.empty());
+    CHECK(measure(w, {contact}).unseen.empty());
     const Shape& shape = w.scene.shapes[1];
     for (std::size_t k = 0; k < shape.center.size(); ++k)
         if (shape.normal[k].x() > 0.5)  // of the first floe's face towards the second
             w.scene.crushed.crush(1, static_cast<std::int32_t>(k), shape.center.size(),
                                   Vec3(-0.05, 0, 0));
-    CHECK(look(w).deepest == Near(0.01).margin(1e-6));
+    CHECK(measure(w).deepest == Near(0.01).margin(1e-6));
 }
 
 TEST_CASE("floes side by side and corner to corner are in nobody", "[overlaps]") {
-    CHECK(look(two_floes(1.0, 0.01, Vec3(1.0, 0, 0))).deepest == Near(0.0).margin(1e-12));
+    CHECK(measure(two_floes(1.0, 0.01, Vec3(1.0, 0, 0))).deepest == Near(0.0).margin(1e-12));
     const Quaternion turn(Eigen::AngleAxisd(0.7, Vec3(0.2, 0.3, 1).normalized()));
-    CHECK(look(two_floes(1.0, 0.01, Vec3(1.25, 0.3, 0.1), turn)).deepest == 0.0);
+    CHECK(measure(two_floes(1.0, 0.01, Vec3(1.25, 0.3, 0.1), turn)).deepest == 0.0);
     // the hull is of no convex form here: a floe inside it is found by winding number and seats
     World w = two_floes(1.0, 0.01, Vec3(5, 0, 0));
-    CHECK(look(w).deepest == 0.0);
+    CHECK(measure(w).deepest == 0.0);
     w.scene.bodies.position[1] = w.scene.bodies.position[0] + Vec3(0.95, 0, 0);
-    CHECK(look(w).deepest == Near(0.05).margin(0.01));
+    CHECK(measure(w).deepest == Near(0.05).margin(0.01));
 }
 
 TEST_CASE("the part of a hull that no sphere stands for is measured in the belt", "[overlaps]") {

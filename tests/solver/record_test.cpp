@@ -229,13 +229,13 @@ TEST_CASE("hull contacts between two frames add up to the forces of their steps"
 }
 
 TEST_CASE("a touch that lasts is one hit, a second touch another", "[record]") {
-    RunStatistics tally({{"hull", "bow"}, 0.0, true, 0.01});
+    RunStatistics statistics({{"hull", "bow"}, 0.0, true, 0.01});
     StepRecord touching, apart;
     touching.regions = {{3, 1, Vec3(-2, 0, 0), Vec3(-0.5, 0, 0)}};
     for (const StepRecord* r : {&touching, &touching, &apart, &touching})
-        tally.add(*r, 0.1, 0.1, true);
+        statistics.add(*r, 0.1, 0.1, true);
     Summary summary;
-    tally.fill(summary);
+    statistics.fill(summary);
     CHECK(summary.regions["bow"].hits == 2);
     CHECK(summary.regions["bow"].max_impulse == 2.0);
     CHECK(summary.regions["bow"].mean[0] == Near(-6.0 / 0.4));

@@ -183,7 +183,7 @@ TEST_CASE("a run stopped in the middle of a jam has the summary of the whole run
             expected.warnings.begin(), expected.warnings.end(),
             [&](const Warning& w) { return w.text.find(words) != std::string::npos; });
     };
-    // all that the tally remembers of a jam is there to be compared, and of bodies too fast
+    // all that the statistics keep of a jam is there to be compared, and of bodies too fast
     CHECK(warned("jam: in "));
     CHECK(warned("first floe 1 at t = 0.0"));
     CHECK(expected.max_overlap > 0.0);

@@ -162,7 +162,7 @@ TEST_CASE("spheres in convex bodies are no nearer than the bodies' separation",
           "[narrow][property]") {
     World w = two_boxes();
     const Shape& box = w.scene.shapes[1];
-    REQUIRE(box.bounds.hold_spheres);
+    REQUIRE(box.bounds.enclose_spheres);
     Dice dice{std::mt19937(7)};
     for (int k = 0; k < 100; ++k) {
         place(w, 2, 1.2 * dice.vector(), dice.turn(3.0));
@@ -176,15 +176,15 @@ TEST_CASE("spheres in convex bodies are no nearer than the bodies' separation",
     }
 }
 
-TEST_CASE("a form with a dent, or whose spheres reach far out of it, holds none",
+TEST_CASE("a form with a dent, or whose spheres reach far out of it, encloses no spheres",
           "[narrow][degenerate]") {
     SphereSet set = test::make_box_set(kSize, 0.05, 0.1);
-    REQUIRE(build_shape(set, false).bounds.hold_spheres);
+    REQUIRE(build_shape(set, false).bounds.enclose_spheres);
     SphereSet dented = set, small = set;
     dented.mesh.vertices.front() *= 0.2;
-    CHECK_FALSE(build_shape(dented, false).bounds.hold_spheres);
+    CHECK_FALSE(build_shape(dented, false).bounds.enclose_spheres);
     for (Vec3& v : small.mesh.vertices) v *= 0.8;
-    CHECK_FALSE(build_shape(small, false).bounds.hold_spheres);
+    CHECK_FALSE(build_shape(small, false).bounds.enclose_spheres);
 }
 
 TEST_CASE("of a form without bounds nothing is known", "[narrow][degenerate]") {

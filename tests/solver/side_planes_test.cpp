@@ -93,8 +93,8 @@ struct Patchwork {
         shape.cone.push_back(faces);
         shape.mirror_rank.push_back(static_cast<std::int32_t>(shape.mirror_rank.size()));
     }
-    // Is there a border of the first sphere's?
-    bool has_border() const { return SidePlanes(shape).has(0); }
+    // Has the first sphere side planes?
+    bool has_side_planes() const { return SidePlanes(shape).has(0); }
 };
 
 // The part of a vector along the edge, or across the face's normal, of sphere k.
@@ -122,15 +122,15 @@ TEST_CASE("a box's faces and edges end where the box does", "[narrow][side_plane
                 1.7 * shape.patch_radius * Vec3(unit(random), unit(random), unit(random));
             const Vec3 point = tip + part_within(shape, k, offset);
             const double past = (point.cwiseAbs() - 0.5 * size).maxCoeff();
-            const auto holds = [&](double slack) {
+            const auto contains = [&](double slack) {
                 const auto row = static_cast<std::int32_t>(k);
                 return !shape.side_planes.has(row) || shape.side_planes.contain(row, point, slack);
             };
             (past <= kRounding ? within : beyond) += 1;
             CAPTURE(k, point.transpose(), past);
-            // a face's own plane is no border of it: its points are past none by rounding
-            REQUIRE(holds(past + kRounding));
-            if (past > 2.0 * kRounding) REQUIRE_FALSE(holds(past - kRounding));
+            // a face's own plane is no side plane of it: its points are past none by rounding
+            REQUIRE(contains(past + kRounding));
+            if (past > 2.0 * kRounding) REQUIRE_FALSE(contains(past - kRounding));
         }
     }
     CHECK(within > 1000);
@@ -142,16 +142,16 @@ TEST_CASE("a face ends at outward edges only", "[narrow][side_planes][analytic]"
     for (Patchwork* p : {&outward, &inward, &flat}) p->add(Vec3(-0.1, 0, 0), {kZ});
     SECTION("where the next face goes down") {
         outward.add(Vec3::Zero(), {kZ, kX});
-        CHECK(outward.has_border());
+        CHECK(outward.has_side_planes());
     }
     SECTION("but not where it rises") {
         inward.add(Vec3::Zero(), {kZ, -kX});
-        CHECK_FALSE(inward.has_border());
+        CHECK_FALSE(inward.has_side_planes());
     }
     SECTION("nor where it goes on, but for two degrees") {
         const double bend = 0.035;
         flat.add(Vec3::Zero(), {kZ, Vec3(std::sin(bend), 0, std::cos(bend))});
-        CHECK_FALSE(flat.has_border());
+        CHECK_FALSE(flat.has_side_planes());
     }
 }
 
@@ -164,16 +164,16 @@ TEST_CASE("a face goes on where its edge is hollow in plan", "[narrow][side_plan
         const Vec3 out(std::cos(angle), std::sin(angle), 0.0);
         p.add(0.5 * out, {kZ, hollow ? Vec3(-out) : out});
     }
-    CHECK(p.has_border() != hollow);
+    CHECK(p.has_side_planes() != hollow);
 }
 
 TEST_CASE("an edge ends at planes that are next to both of its faces", "[narrow][side_planes]") {
     Patchwork p;
     p.add(Vec3::Zero(), {kZ, kX});
     p.add(Vec3(-0.1, 0.1, 0), {kZ, kY});
-    CHECK_FALSE(p.has_border());
+    CHECK_FALSE(p.has_side_planes());
     p.add(Vec3(0, 0.1, -0.1), {kX, kY});
-    CHECK(p.has_border());
+    CHECK(p.has_side_planes());
 }
 
 TEST_CASE("floes past the end of a ship's edges touch nothing", "[narrow][side_planes][property]") {

@@ -123,7 +123,7 @@ TEST_CASE("a long way through a strip takes no more memory than what is within r
     World w = soft_world(p);
     std::size_t recesses = 0;
     std::int64_t alive = 0;
-    const auto look = [&](double until) {
+    const auto run_until = [&](double until) {
         recesses = 0;
         alive = 0;
         while (w.time < until) {
@@ -132,11 +132,11 @@ TEST_CASE("a long way through a strip takes no more memory than what is within r
             alive = std::max(alive, w.edge.alive());
         }
     };
-    look(30.0);
+    run_until(30.0);
     const std::size_t recesses_then = recesses;
     const std::int64_t alive_then = alive;
     REQUIRE(w.edge.retired() > 0);
-    look(60.0);
+    run_until(60.0);
     CAPTURE(recesses, recesses_then, alive, alive_then, w.edge.broken());
     CHECK(static_cast<double>(recesses) < 2.0 * static_cast<double>(recesses_then));
     CHECK(static_cast<double>(alive) < 1.5 * static_cast<double>(alive_then));

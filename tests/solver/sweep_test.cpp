@@ -158,7 +158,7 @@ TEST_CASE("every instruction set sweeps to the bits of the reference", "[sweep][
 
 TEST_CASE(
     "conjugate gradients go on along steady sweeps where ice can crush, and restart where "
-    "nothing gives way",
+    "nothing is crushed",
     "[sweep][analytic]") {
     const bool bounded = GENERATE(true, false);
     const double ratio = GENERATE(0.5, 0.75, 0.9, 1.0, 1.04, 1.3);  // |g|^2 over the last one

@@ -29,18 +29,18 @@ StepRecord step_of(double force) {
 
 // 100 steps before the averaged time and 1000 in it, forces 90 and 110 N in turn
 template <class Change>
-Summary summary_of(RunStatistics tally, const Change& change, const TravelParticulars& travel = {},
-                   double separation_work = -6.0) {
+Summary summary_of(RunStatistics statistics, const Change& change,
+                   const TravelParticulars& travel = {}, double separation_work = -6.0) {
     for (int k = 0; k < 1100; ++k) {
         StepRecord r = step_of(k % 2 == 0 ? 90.0 : 110.0);
         const std::optional<double> residual = change(k - 100, r);
-        tally.add(r, 0.01 * (k + 1), 0.01, residual);
+        statistics.add(r, 0.01 * (k + 1), 0.01, residual);
     }
     Summary s;
     s.travel = travel;
     s.energy["ship_work_J"] = 1000.0;
     s.energy["separation_J"] = separation_work;
-    tally.fill(s);
+    statistics.fill(s);
     return s;
 }
 
@@ -188,10 +188,11 @@ TEST_CASE("averages over less than a length are warned of with the interval's sh
 TEST_CASE("a force that changes about a mean of zero is given no share of it", "[record]") {
     StatisticsOptions all = options();
     all.average_from = 0.0;
-    RunStatistics tally(all);
-    for (int k = 0; k < 1000; ++k) tally.add(step_of(k < 500 ? -1.0 : 1.0), 0.01 * k, 0.01, {});
+    RunStatistics statistics(all);
+    for (int k = 0; k < 1000; ++k)
+        statistics.add(step_of(k < 500 ? -1.0 : 1.0), 0.01 * k, 0.01, {});
     Summary s;
-    tally.fill(s);
+    statistics.fill(s);
     CHECK(s.resistance.mean == 0.0);
     for (const Warning& w : s.warnings) CHECK_THAT(w.text, !Catch::Contains("inf"));
 }
@@ -210,16 +211,17 @@ TEST_CASE("bodies that meet too fast are warned of with what their steps do to t
 
 TEST_CASE("overlaps that no contact knows are warned of with the loads on the hull of their floes",
           "[record][analytic]") {
-    // at each look in the averaged time floe 1 brings 97, floe 2 brings 3 and floe 3 none
+    // at each check in the averaged time floe 1 brings 97, floe 2 brings 3 and floe 3 none
     const auto overlaps = [](const std::vector<UnseenOverlap>& pairs) {
-        RunStatistics tally(options());
+        RunStatistics statistics(options());
         for (int k = 0; k < 10; ++k) {
             StepRecord r;
             r.regions = {{1, 0, Vec3(-97, 0, 0)}, {2, 0, Vec3(-3, 5, 0)}};
-            tally.add_look({0.04, pairs}, r, 2.0 + k);
-            tally.add_look({0.04, {{0, 1, 0.03}}}, r, 0.5);  // before: of no effect on the mean
+            statistics.add_check({0.04, pairs}, r, 2.0 + k);
+            // before the averaged time: of no effect on the mean
+            statistics.add_check({0.04, {{0, 1, 0.03}}}, r, 0.5);
         }
-        return summary_of(tally, [](int, StepRecord&) { return kNothing; });
+        return summary_of(statistics, [](int, StepRecord&) { return kNothing; });
     };
     const auto share = [&](const std::vector<UnseenOverlap>& pairs) {
         const Summary s = overlaps(pairs);
@@ -241,16 +243,16 @@ TEST_CASE("overlaps that no contact knows are warned of with the loads on the hu
 TEST_CASE("what was warned of at the start gets the verdict of what the run measured",
           "[record][analytic]") {
     const auto judged_by = [](double separation, const std::vector<UnseenOverlap>& pairs) {
-        RunStatistics tally(options());
+        RunStatistics statistics(options());
         StepRecord r = step_of(100.0);
         r.regions = {{1, 0, Vec3(-97, 0, 0)}, {2, 0, Vec3(-3, 0, 0)}};
-        tally.add_look({0.06, pairs}, r, 2.0);
-        for (int k = 0; k < 1000; ++k) tally.add(r, 2.0 + 0.01 * k, 0.01, {});
+        statistics.add_check({0.06, pairs}, r, 2.0);
+        for (int k = 0; k < 1000; ++k) statistics.add(r, 2.0 + 0.01 * k, 0.01, {});
         Summary s;
         s.warnings = {{"spheres are far apart"}, {"the ship meets the ice late", true, 0.3}};
         s.energy["ship_work_J"] = 1000.0;
         s.energy["separation_J"] = -separation;
-        tally.fill(s);
+        statistics.fill(s);
         CHECK(s.warnings.at(1) == Warning{"the ship meets the ice late", true, 0.3});
         return s.warnings.at(0);
     };

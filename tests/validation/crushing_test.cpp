@@ -75,7 +75,7 @@ TEST_CASE("a plate driven against an edge meets the pressure times the section o
     const double row = radius * (std::cos(heading) + std::sin(heading)) / 2.0;
     CHECK(got.force == Near(kPressure * 0.3 * depth * width).margin(kPressure * 0.3 * row));
     // work is the pressure times the volume cut: rows even out over the way. With 0.1 m spheres the
-    // whole edge of 0.3 m is two corners, whose third face is taken to give way like the others:
+    // whole edge of 0.3 m is two corners, whose third face counts as crushed like the others:
     // 30 % too much.
     const double work = kPressure * 0.3 * 0.5 * depth * depth * width;
     CHECK(got.work == Near(work).epsilon(radius > 0.05 ? 0.31 : 0.1));

@@ -128,8 +128,8 @@ TEST_CASE(
         CAPTURE(tip.name, r_hull, r_ice, pressure, depth, got / section, row / section);
         // a row along the outline, half of one at either side
         CHECK(got <= section + row);
-        // and half a row where the hull's edge gives way to the ice's spheres under its patches,
-        // which lie between those of the hull
+        // and half a row where the ice's spheres under the patches of the hull's edge replace them:
+        // they lie between those of the hull
         CHECK(got >= section - 1.5 * row);
     }
 }
