@@ -48,7 +48,7 @@ void measure(const PairView& view, const TouchingSpheres& touching, double most,
 
 // Is no sphere of one body nearer to the other than their separation()?
 bool enclose_spheres(const PairView& view) {
-    return view.shape_a.bounds.hold_spheres && view.shape_b.bounds.hold_spheres &&
+    return view.shape_a.bounds.enclose_spheres && view.shape_b.bounds.enclose_spheres &&
            view.scene.crushed.is_whole(view.pair.a) && view.scene.crushed.is_whole(view.pair.b);
 }
 
