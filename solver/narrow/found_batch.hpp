@@ -5,6 +5,7 @@
 
 #include "solver/narrow/contact_polygon.hpp"
 #include "solver/narrow/deep_seats.hpp"
+#include "solver/narrow/pair_cache.hpp"
 #include "solver/narrow/search_pair.hpp"
 
 namespace ice {
