@@ -21,6 +21,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
+#include "common/base/uncertainty.hpp"
 #include "common/cli/console.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "solver/case/read_case.hpp"
@@ -82,12 +83,15 @@ struct Row {
 
 // Mean of the runs' means, and half the width of its 95 % interval from their scatter (Student).
 MeanInterval over_runs(const std::vector<Outcome>& runs, MeanInterval Outcome::*force) {
-    constexpr double kStudent[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262};
     std::vector<double> means;
     double sum = 0.0;
     for (const Outcome& run : runs) sum += means.emplace_back((run.*force).mean);
     const double count = static_cast<double>(runs.size());
-    return {sum / count, kStudent[runs.size() - 2] * standard_deviation(means) / std::sqrt(count)};
+    MeanInterval out;
+    out.mean = sum / count;
+    out.half_width =
+        student_quantile(0.05, count - 1.0) * standard_deviation(means) / std::sqrt(count);
+    return out;
 }
 
 MeanInterval of_first(const std::vector<Outcome>& runs, MeanInterval Outcome::*force) {
