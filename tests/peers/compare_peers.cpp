@@ -21,7 +21,6 @@
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
-#include "common/base/uncertainty.hpp"
 #include "common/cli/console.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "solver/case/read_case.hpp"
@@ -81,17 +80,11 @@ struct Row {
     std::vector<Outcome> runs;
 };
 
-// Mean of the runs' means, and half the width of its 95 % interval from their scatter (Student).
+// Mean of the runs' means, and its 95 % interval from their scatter (Student).
 MeanInterval over_runs(const std::vector<Outcome>& runs, MeanInterval Outcome::*force) {
     std::vector<double> means;
-    double sum = 0.0;
-    for (const Outcome& run : runs) sum += means.emplace_back((run.*force).mean);
-    const double count = static_cast<double>(runs.size());
-    MeanInterval out;
-    out.mean = sum / count;
-    out.half_width =
-        student_quantile(0.05, count - 1.0) * standard_deviation(means) / std::sqrt(count);
-    return out;
+    for (const Outcome& run : runs) means.push_back((run.*force).mean);
+    return student_interval(means);
 }
 
 MeanInterval of_first(const std::vector<Outcome>& runs, MeanInterval Outcome::*force) {
