@@ -106,6 +106,23 @@ ice::Existing may_exist(const ice::Options& o, const std::filesystem::path& fold
     return o.overwrite ? ice::Existing::replace : ice::Existing::refuse;
 }
 
+// A run that goes on in its folder replaces the rows from its checkpoint on. Where the folder holds
+// a longer one, those beyond the new end would be lost.
+void refuse_to_shorten(const ice::Options& o, const ice::World& world) {
+    const std::filesystem::path folder = folder_of_run(o);
+    if (o.overwrite || may_exist(o, folder) != ice::Existing::go_on ||
+        !std::filesystem::exists(folder / "summary.json"))
+        return;
+    const double held = ice::read_summary(folder / "summary.json").simulated_s;
+    const double end = world.parameters.duration;
+    if (end + world.parameters.time_step > held) return;
+    throw ice::bad_input(folder.string(),
+                         fmt::format("holds a run up to {:g} s, and this one ends at {:g} s: its "
+                                     "rows beyond would be lost",
+                                     held, end),
+                         "add --overwrite to shorten it, or --out for another folder");
+}
+
 // A run that ends with an error keeps its files; the error says so, with the command that resumes.
 ice::Summary run_or_tell(ice::World& world, const ice::RunOptions& options, const ice::Options& o) {
     try {
@@ -170,6 +187,7 @@ int run_case(const ice::Options& o, const std::string& command_line) {
     // said now, while the case can be changed; at the end the summary has the verdict
     if (const auto few = ice::warn_of_short_averages(world)) warnings.push_back(*few);
     if (o.check) return describe(o, world, warnings);
+    refuse_to_shorten(o, world);
     const ice::RunFolder claimed(
         folder_of_run(o), may_exist(o, folder_of_run(o)),
         {ice::typed_program() + command_line.substr(command_line.find(' ')) + " --overwrite",

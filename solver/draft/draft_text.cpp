@@ -64,7 +64,7 @@ std::string draft_text(const Draft& d, const std::string& hull, const std::strin
     out += "# Unbroken ice, which the bow breaks: these tables in the place of [[floes]].\n";
     out += fmt::format(
         "# [level_ice]\n# thickness = {:g}\n# extent = [{:g}, {:g}, {:g}, {:g}]\n"
-        "# [bending]\n# flexural_strength = \"500 kPa\"\n",
+        "# [bending]\n# model = \"kashtelyan\"\n# flexural_strength = \"500 kPa\"\n",
         d.thickness, d.ice_from, d.ice_to, d.ice_starboard, d.ice_port);
     out += "\n[contact]\n" + line("friction_ship_ice = 0.1", "CHECK: 0.05 new paint, 0.2 old");
     out += line("friction_ice_ice = 0.3", "CHECK");

@@ -141,6 +141,27 @@ TEST_CASE("after a restart --hash-every prints the lines that the whole run prin
     CHECK(first + rest == whole);
 }
 
+TEST_CASE("a restart that would shorten a run is refused without --overwrite",
+          "[cli][checkpoint][errors]") {
+    const Workshop w;
+    w.make_case();
+    const std::string run = "icesolve case.cfg -q --no-report ";
+    REQUIRE(w.run(run + "--out r --checkpoint-every 9 --set simulation.duration=1.3").code == 0);
+    fs::copy_file(w / "r/checkpoint.h5", w / "r/old.h5");
+    REQUIRE(w.run(run + "--restart r/checkpoint.h5 --checkpoint-every 9").code == 0);
+    const std::string forces = slurp(w / "r/forces.csv");
+    const std::string shorter = "--restart r/old.h5 --set simulation.duration=1.4";
+    const Result refused = w.run(run + shorter);
+    CHECK(refused.code == 2);
+    CHECK_THAT(refused.err, Catch::Contains("and this one ends at 1.4 s") &&
+                                Catch::Contains("add --overwrite to shorten it"));
+    CHECK(slurp(w / "r/forces.csv") == forces);
+    CHECK(w.run(run + "--restart r/old.h5").code == 0);  // the same rows again
+    CHECK(slurp(w / "r/forces.csv") == forces);
+    CHECK(w.run(run + shorter + " --overwrite").code == 0);
+    CHECK(slurp(w / "r/forces.csv") != forces);
+}
+
 TEST_CASE("a bad checkpoint ends with exit code 2 and changes nothing", "[cli][errors]") {
     const Workshop w;
     w.make_case();
