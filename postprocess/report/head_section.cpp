@@ -102,6 +102,21 @@ std::string column(const std::string& heading, const Rows& rows) {
     return rows.empty() ? "" : "<h3>" + escape(heading) + "</h3>\n" + facts(rows);
 }
 
+// The interval of one run alone looks too sure: the model's uncertainty is beside it. In level ice
+// that of broken ice does not apply; the error against model tests is known there.
+std::string model_card(const Summary& s, const ForceUnit& unit) {
+    if (is_level_ice(s.ice))
+        return card(fmt::format("{:.0f} to {:.0f} %", 100.0 * kLeastLevelIceError,
+                                100.0 * kLargestLevelIceError),
+                    fmt::format("mean absolute error against model tests in level ice, beside "
+                                "that interval; bias {:+.0f} % over the seven tests of MT Uikku "
+                                "(docs/validation-measured.md)",
+                                100.0 * kLevelIceBias));
+    return card("± " + unit.text(kModelUncertainty * std::abs(s.resistance.mean)) + " " + unit.name,
+                fmt::format("uncertainty of the model, {:.0f} %, beside that interval",
+                            100.0 * kModelUncertainty));
+}
+
 }  // namespace
 
 double mean_speed(const RunData& run, double from) {
@@ -123,10 +138,7 @@ std::string key_numbers(const Summary& s, const ForceUnit& unit, double speed) {
                 "mean ice resistance with the 95 % interval of this run");
     for (const auto& [name, part] : parts_of(s))
         out += card(unit.text(part) + " " + unit.name, "of it " + name);
-    // the interval of one run alone looks too sure: the model's uncertainty is beside it
-    out += card("± " + unit.text(kModelUncertainty * std::abs(s.resistance.mean)) + " " + unit.name,
-                fmt::format("uncertainty of the model, {:.0f} %, beside that interval",
-                            100.0 * kModelUncertainty));
+    out += model_card(s, unit);
     const auto formulas = comparable_formulas(formulas_of(s), is_level_ice(s.ice));
     if (formulas.size() == 1)
         out += card(unit.text(formulas[0].value) + " " + unit.name,

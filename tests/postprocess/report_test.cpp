@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <sstream>
 
+#include "common/base/uncertainty.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/tables.hpp"
 #include "postprocess/report/write_report.hpp"
@@ -71,6 +76,48 @@ TEST_CASE("the report of a 3D run contains its numbers, pictures and origin", "[
     }
     CHECK_THAT(html, Catch::Contains("Box among floes &lt;test &amp; &quot;quotes&quot;&gt;"));
     CHECK(html.size() < kTwoMegabytes);
+}
+
+TEST_CASE("a report in ice that breaks gives the error against model tests in place of 10 %",
+          "[report]") {
+    read::RunFolder folder = make_folder();
+    using Rules = std::vector<std::string>;
+    for (const Rules& hold : {Rules{"until-bent", "always"}, Rules{"until-bent"}}) {
+        folder.summary->ice.hold = hold;
+        const std::string html = make_report(folder);
+        CHECK_THAT(html, Catch::Contains("<b>11 to 39 %</b>") &&
+                             Catch::Contains("bias +12 % over the seven tests of MT Uikku "
+                                             "(docs/validation-measured.md)") &&
+                             Catch::Contains("11 to 39 % against model tests in level ice, is not "
+                                             "in it"));
+        CHECK_THAT(html, !Catch::Contains("uncertainty of the model"));
+        CHECK_THAT(html, !Catch::Contains("\u00b1 111 N"));  // 10 % of the mean
+    }
+    folder.summary->ice.hold = {"never", "always"};
+    CHECK_THAT(make_report(folder), Catch::Contains("uncertainty of the model, 10 %") &&
+                                        Catch::Contains("uncertainty of the model, about 10 %") &&
+                                        !Catch::Contains("MT Uikku"));
+}
+
+TEST_CASE("the errors in level ice are those of the page on measurements", "[report]") {
+    std::ifstream file(ICE_SOURCE_DIR "/docs/validation-measured.md");
+    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    // the tables' rows "| this program | mean absolute error | bias |"; the first one is of the
+    // seven tests, the first four are MT Uikku's groups
+    std::vector<std::pair<double, double>> rows;
+    const std::string row = "| this program |";
+    for (std::size_t at = page.find(row); at != std::string::npos && rows.size() < 4;
+         at = page.find(row, at + 1)) {
+        std::istringstream cells(page.substr(at + row.size(), 40));
+        char bar = 0;
+        rows.emplace_back();
+        cells >> rows.back().first >> bar >> rows.back().second;
+    }
+    REQUIRE(rows.size() == 4);
+    const auto [least, largest] = std::minmax_element(rows.begin(), rows.end());
+    CHECK(std::lround(100.0 * kLeastLevelIceError) == std::lround(least->first));
+    CHECK(std::lround(100.0 * kLargestLevelIceError) == std::lround(largest->first));
+    CHECK(std::lround(100.0 * kLevelIceBias) == std::lround(rows[0].second));
 }
 
 TEST_CASE("the report of a 2D run is per metre, without lateral force and views from above",
