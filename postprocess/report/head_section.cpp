@@ -47,7 +47,7 @@ Rows ship_rows(const Summary& s) {
     add(rows, "Draught, T", fixed(s.ship.draught, 2, "m"));
     add(rows, "Displacement", fixed(1e-3 * s.ship.displacement, 1, "t"));
     add(rows, "Stem angle", fixed(s.ship.stem_angle_deg, 1, "°"));
-    add(rows, "Entrance, half angle", fixed(s.ship.entrance_angle_deg, 1, "°"));
+    add(rows, "Half entrance angle", fixed(s.ship.entrance_angle_deg, 1, "°"));
     return rows;
 }
 
@@ -76,7 +76,7 @@ Rows ice_rows(const Summary& s) {
         add(rows, "Crushing pressure",
             std::isfinite(ice.crushing_pressure) ? readable(1e-6 * ice.crushing_pressure) + " MPa"
                                                  : "none: rigid ice");
-    add(rows, "Held", release_rule(s.ice));
+    add(rows, "Held", release_rule_in_words(s.ice));
     return rows;
 }
 
@@ -152,7 +152,7 @@ std::string key_numbers(const Summary& s, const ForceUnit& unit, double speed) {
                     "empirical formulas: " + names);
     }
     if (!s.ice.hold.empty())
-        out += card(release_rule(s.ice), "release rule: until when floes are held");
+        out += card(release_rule_in_words(s.ice), "release rule: until when floes are held");
     // resistance times speed; unknown where the speed is
     if (std::isfinite(speed)) {
         out += card(fmt::format("{:.2f} m/s", speed), fmt::format("{:.2f} knots", speed / kKnot));

@@ -169,27 +169,48 @@ std::string region_table(const Summary& s, const ForceUnit& unit) {
     return table(header, rows);
 }
 
+namespace {
+
+// An entry of the energy ledger and its row in the table.
+struct EnergyRow {
+    const char* key;
+    const char* name;
+    const char* source;  // of an entry that puts energy in, its name in the sentence of the balance
+};
+
+// In the order of (19) in section 8 of docs/method.md: sources, destinations, the residual.
+constexpr EnergyRow kEnergyRows[]{
+    {"ship_work_J", "Work of the ship", "Work of the ship"},
+    {"drift_work_J", "Put in by drifting ice that is held", "drifting ice"},
+    {"separation_J", "Put in by opening overlaps", "opened overlaps"},
+    {"water_work_J", "Put in by the moving water", "moving water"},
+    {"applied_work_J", "Put in by applied loads", "applied loads"},
+    {"potential_J", "Gained as potential energy", nullptr},
+    {"kinetic_change_J", "Gained as kinetic energy", nullptr},
+    {"friction_J", "Lost to friction", nullptr},
+    {"restitution_J", "Lost in impacts", nullptr},
+    {"crushing_J", "Lost to crushing", nullptr},
+    {"breaking_J", "Lost to ice before it breaks off", nullptr},
+    {"drag_J", "Lost to drag", nullptr},
+    {"buoyancy_moment_J", "Taken by the moment that buoyancy \"centre\" leaves out", nullptr},
+    {"residual_J", "Not explained", nullptr}};
+
+}  // namespace
+
+std::string energy_balance(const Summary& s) {
+    std::string sources;
+    for (const EnergyRow& row : kEnergyRows)
+        if (row.source != nullptr && s.energy.contains(row.key))
+            sources += (sources.empty() ? "" : " + ") + std::string(row.source);
+    return sources + " = the sum of all entries below them.";
+}
+
 std::string energy_table(const Summary& s) {
-    // in the order of the energy ledger: work done, its destinations, the residual
-    static const std::vector<std::pair<const char*, const char*>> kRows{
-        {"ship_work_J", "Work of the ship"},
-        {"separation_J", "Put in by opening overlaps"},
-        {"water_work_J", "Put in by the moving water"},
-        {"applied_work_J", "Put in by applied loads"},
-        {"potential_J", "Gained as potential energy"},
-        {"kinetic_change_J", "Gained as kinetic energy"},
-        {"friction_J", "Lost to friction"},
-        {"restitution_J", "Lost in impacts"},
-        {"crushing_J", "Lost to crushing"},
-        {"breaking_J", "Lost to ice before it breaks off"},
-        {"drag_J", "Lost to drag"},
-        {"buoyancy_moment_J", "Taken by the moment that buoyancy \"centre\" leaves out"},
-        {"residual_J", "Not explained"}};
     const auto work = s.energy.find("ship_work_J");
     if (work == s.energy.end() || !s.energy.contains("residual_J")) return "";
     std::vector<std::string> names;
     std::vector<double> values;
-    for (const auto& [key, name] : kRows) {
+    for (const auto& [key, name, source] : kEnergyRows) {
         const auto found = s.energy.find(key);
         if (found == s.energy.end()) continue;
         names.emplace_back(name);

@@ -92,9 +92,7 @@ std::string balance_sections(const Summary& s) {
     std::string out;
     const std::string energy = energy_table(s);
     if (!energy.empty())
-        out +=
-            section("energy", "Where the ship's work went",
-                    "Work of the ship + opened overlaps = the sum of all other entries.", energy);
+        out += section("energy", "Where the ship's work went", energy_balance(s), energy);
     return out + section("numerics", "Contacts and computing time", "", numerics_table(s));
 }
 

@@ -99,6 +99,50 @@ TEST_CASE("a report in ice that breaks gives the error against model tests in pl
                                         !Catch::Contains("MT Uikku"));
 }
 
+TEST_CASE("the sentence on the ship's work names the entries that put energy in", "[report]") {
+    Summary s = *make_folder().summary;
+    CHECK(energy_balance(s) == "Work of the ship = the sum of all entries below them.");
+    s.energy["separation_J"] = 1.0;
+    s.energy["water_work_J"] = 100.0;
+    CHECK(energy_balance(s) ==
+          "Work of the ship + opened overlaps + moving water = the sum of all entries below them.");
+    s.energy["drift_work_J"] = 12.0;
+    s.energy["applied_work_J"] = 3.0;
+    CHECK(energy_balance(s) ==
+          "Work of the ship + drifting ice + opened overlaps + moving water + applied loads = the "
+          "sum of all entries below them.");
+    // the entries of the sentence are the first rows of the table
+    const std::string table = energy_table(s);
+    std::size_t at = 0;
+    for (const char* row : {"Work of the ship", "drifting ice", "opening overlaps", "moving water",
+                            "applied loads", "Lost to drag", "Not explained"}) {
+        CAPTURE(row);
+        at = table.find(row, at);
+        REQUIRE(at != std::string::npos);
+    }
+}
+
+TEST_CASE("single hits are the contact force without friction, and the page says so", "[report]") {
+    read::RunFolder folder = make_folder();
+    for (HistoryRow& row : folder.data.history) {
+        row.contact_force = {-200.0F, 30.0F, 40.0F};
+        row.friction_force = {-700.0F, 5.0F, 6.0F};
+    }
+    CHECK_THAT(make_report(folder),
+               Catch::Contains("Single hits of the contact force, without friction, reach x 200, "
+                               "y 30, z 40 N."));
+}
+
+TEST_CASE("the report's head has the half entrance angle and release rules in words", "[report]") {
+    read::RunFolder folder = make_folder();
+    folder.summary->ship.entrance_angle_deg = 28.0;
+    folder.summary->ice.hold = {"never", "always"};
+    const std::string html = make_report(folder);
+    CHECK_THAT(html, Catch::Contains("Half entrance angle") && Catch::Contains("28.0 \u00b0"));
+    // once as a card, once among the particulars
+    CHECK(count(markup_of(html), "never (loose), always (unbroken)") == 2);
+}
+
 TEST_CASE("the errors in level ice are those of the page on measurements", "[report]") {
     std::ifstream file(ICE_SOURCE_DIR "/docs/validation-measured.md");
     const std::string page{std::istreambuf_iterator<char>(file), {}};
