@@ -190,6 +190,27 @@ TEST_CASE("a run without averages, or without a touch, says so in place of numbe
           "no contact: nothing touched the ship at 0.5 m/s (0.972 kn); 3 of 9 floes moved");
 }
 
+TEST_CASE("the formulas' line compares level ice with totals, broken ice with a part", "[record]") {
+    Summary s;
+    CHECK(formulas_line(s).empty());
+    s.lindqvist_submersion = 403300.0;
+    s.formulas = {{"Lindqvist 1989", "submersion", 403300.0, false},
+                  {"Lindqvist 1989", "total", 791600.0, false},
+                  {"Riska 1997", "total", 688400.0, false},
+                  {"Jeong 2010", "buoyancy + clearing", 310000.0, false},
+                  {"Jeong 2010", "total", 700000.0, true}};
+    s.ice.hold = {"never", "always"};
+    CHECK(formulas_line(s) == "Lindqvist's submersion resistance: 403.3 kN");
+    s.ice.hold = {"until-bent", "always"};
+    CHECK(formulas_line(s) ==
+          "formulas for level ice, total: 688.4 to 791.6 kN (Lindqvist 1989, Riska 1997, Jeong "
+          "2010)");
+    s.formulas = {{"Riska 1997", "total", 688400.0, false}};
+    CHECK(formulas_line(s) == "formulas for level ice, total: 688.4 kN (Riska 1997)");
+    s.formulas.clear();
+    CHECK(formulas_line(s).empty());
+}
+
 TEST_CASE("the resistance's line has both units of speed, the energy's the shares worth a word",
           "[record]") {
     Summary s;
