@@ -235,12 +235,36 @@ std::string energy_table(const Summary& s) {
     return table({"Energy [" + unit.name + "]", "Whole run", "Share [%]"}, rows);
 }
 
+namespace {
+
+// The count alone says nothing about the mean: most steps may miss the tolerance by next to nothing.
+std::string unconverged_text(const Summary& s) {
+    std::string out = fmt::format("{} of {}", s.unconverged_steps, s.steps);
+    // summaries of older programs lack the share
+    if (s.unconverged_steps > 0 && std::isfinite(s.residual_share))
+        out += fmt::format(
+            "; the impulses that they lack are {:.2g} % of all (a warning from {:g} % on)",
+            100.0 * s.residual_share, 100.0 * kMatters);
+    return out;
+}
+
+std::string overlap_text(const Summary& s) {
+    std::string out = readable(1000.0 * s.max_overlap) + " mm";
+    const auto work = s.energy.find("ship_work_J"), put_in = s.energy.find("separation_J");
+    if (work != s.energy.end() && put_in != s.energy.end() && work->second != 0.0)
+        out += fmt::format("; opening all overlaps added {:.2g} % of the ship's work",
+                           100.0 * put_in->second / work->second + 0.0);
+    return out;
+}
+
+}  // namespace
+
 std::string numerics_table(const Summary& s) {
     std::vector<std::pair<std::string, std::string>> rows{
         {"Contacts with an impulse", "mean " + readable(s.contacts_mean) + ", largest " +
                                          readable(s.contacts_max) + " per step"},
-        {"Deepest overlap", readable(1000.0 * s.max_overlap) + " mm"},
-        {"Steps that did not converge", fmt::format("{} of {}", s.unconverged_steps, s.steps)},
+        {"Deepest overlap", overlap_text(s)},
+        {"Steps that did not converge", unconverged_text(s)},
         {"Spheres", fmt::format("{} hull, {} ice", s.hull_spheres, s.ice_spheres)}};
     for (const auto& [key, value] : s.stage_seconds)
         rows.emplace_back("Computing time: " + spelled(key), fmt::format("{:.2f} s", value));

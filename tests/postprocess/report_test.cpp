@@ -143,6 +143,23 @@ TEST_CASE("the report's head has the half entrance angle and release rules in wo
     CHECK(count(markup_of(html), "never (loose), always (unbroken)") == 2);
 }
 
+TEST_CASE("the counts of the solver stand beside what they mean for the mean", "[report]") {
+    Summary s = *make_folder().summary;
+    s.steps = 4572;
+    s.unconverged_steps = 3448;
+    s.max_overlap = 0.0095;
+    s.residual_share = std::nan("");  // of an older program
+    CHECK_THAT(numerics_table(s), Catch::Contains("3448 of 4572<") && Catch::Contains("9.5 mm<"));
+    s.residual_share = 0.005;
+    s.energy["separation_J"] = 0.0001 * s.energy.at("ship_work_J");
+    CHECK_THAT(numerics_table(s),
+               Catch::Contains("3448 of 4572; the impulses that they lack are 0.5 % of all (a "
+                               "warning from 2 % on)<") &&
+                   Catch::Contains("9.5 mm; opening all overlaps added 0.01 % of the ship"));
+    s.unconverged_steps = 0;
+    CHECK_THAT(numerics_table(s), Catch::Contains("0 of 4572<"));
+}
+
 TEST_CASE("the errors in level ice are those of the page on measurements", "[report]") {
     std::ifstream file(ICE_SOURCE_DIR "/docs/validation-measured.md");
     const std::string page{std::istreambuf_iterator<char>(file), {}};
