@@ -6,10 +6,10 @@
 
 namespace ice {
 
-/// Uncertainty of the model itself in broken ice, as a share of the resistance [-]: stated, not computed. An
-/// independent model of the same problem, convex solids with compliant contact, lay 3 to 12 % below
-/// this one on the pre-sawn channel; see docs/limitations.md. It is shown beside intervals and
-/// changes none.
+/// Uncertainty of the model itself in broken ice, as a share of the resistance [-]: stated, not
+/// computed. An independent model of the same problem, convex solids with compliant contact, lay 3
+/// to 12 % below this one on the pre-sawn channel; see docs/limitations.md. It is shown beside
+/// intervals and changes none.
 inline constexpr double kModelUncertainty = 0.10;
 
 /// Errors of the mean in level ice, as shares of the measured resistance [-]: least and largest of

@@ -237,7 +237,7 @@ std::string energy_table(const Summary& s) {
 
 namespace {
 
-// The count alone says nothing about the mean: most steps may miss the tolerance by next to nothing.
+// The count alone says nothing about the mean: most steps may miss the tolerance by very little.
 std::string unconverged_text(const Summary& s) {
     std::string out = fmt::format("{} of {}", s.unconverged_steps, s.steps);
     // summaries of older programs lack the share
