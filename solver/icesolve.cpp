@@ -52,8 +52,7 @@ int report(const ice::Summary& s, const ice::Options& o, const std::string& fold
     if (o.json) ice::write_data(ice::summary_text(s));
     ice::say(ice::resistance_line(s));
     ice::say(ice::describe_rules(s));
-    if (s.lindqvist_submersion)
-        ice::say("Lindqvist's submersion resistance: " + ice::force_text(*s.lindqvist_submersion));
+    if (const std::string line = ice::formulas_line(s); !line.empty()) ice::say(line);
     if (const std::string line = ice::energy_line(s); !line.empty()) ice::say(line);
     for (const ice::Warning& warning : s.warnings)
         if (std::find(said.begin(), said.end(), warning) == said.end())

@@ -10,6 +10,15 @@ std::string release_rule(const IceParticulars& ice) {
     return fmt::format("{}", fmt::join(ice.hold, ", "));
 }
 
+std::string release_rule_in_words(const IceParticulars& ice) {
+    std::vector<std::string> words;
+    for (const std::string& until : ice.hold)
+        words.push_back(until == "never"    ? "never (loose)"
+                        : until == "always" ? "always (unbroken)"
+                                            : until);
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
 bool is_short(double averaged_lengths) {
     // Ship lengths [-]: the least number that two decimals show as 1.00. A text "1.00, less than
     // one" would contradict itself.

@@ -50,6 +50,10 @@ struct IceParticulars {
 /// up to half of the resistance. "" where they are not known.
 std::string release_rule(const IceParticulars& ice);
 
+/// The same with what "never" and "always" make of the ice, for a reader who does not know the
+/// case's keys: "until-hull-contact, never (loose)".
+std::string release_rule_in_words(const IceParticulars& ice);
+
 /// How far the ship goes.
 struct TravelParticulars {
     double distance = kUnknown;          ///< [m]

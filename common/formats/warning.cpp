@@ -14,6 +14,10 @@ Warning judged(std::string text, std::optional<double> share) {
 
 std::string with_verdict(const Warning& w) {
     if (!w.affects_mean) return w.text + " (effect on the mean resistance: not measured)";
+    // No part of a mean is as large as the mean; a mean of 0 has a share of 1. The bound is the
+    // least share [-] that would be shown as 100 %.
+    if (*w.affects_mean && w.share.value_or(0.0) >= 0.995)
+        return w.text + " (the mean cannot be trusted)";
     const double percent = 100.0 * w.share.value_or(0.0);
     const std::string about = !w.share         ? std::string()
                               : percent < 9.95 ? fmt::format(": about {:.2g} % of it", percent)

@@ -59,14 +59,6 @@ std::pair<double, double> middle_range(std::vector<double> values, double share)
     return {std::min(0.0, at(tail)), std::max(0.0, at(1.0 - tail))};
 }
 
-double largest_of(const std::vector<std::vector<double>>& lists) {
-    double most = 0.0;
-    for (const auto& list : lists)
-        for (const double v : list)
-            if (std::isfinite(v)) most = std::max(most, std::abs(v));
-    return most;
-}
-
 History make_history(const std::string& id, const std::string& title, const std::string& axis,
                      const std::vector<double>& time, const Series& series, const Style& style) {
     // Averages are taken of all samples, before thinning, at the thinned times.
@@ -89,7 +81,6 @@ History make_history(const std::string& id, const std::string& title, const std:
     h.y_title = fmt::format("{} [{}]", axis, h.unit.name);
     h.low = low / h.unit.newtons;
     h.high = high / h.unit.newtons;
-    h.peak = largest_of(series.force) / h.unit.newtons;
     if (std::isfinite(style.mean)) h.mean = style.mean / h.unit.newtons;
     h.time = thin.time;
     const auto add = [&](const std::vector<std::vector<double>>& lists, bool is_average) {

@@ -25,7 +25,6 @@ struct History {
     std::vector<double> time;      ///< [s], rising; at least 2
     std::vector<Curve> curves;     ///< each with as many values as times
     double low = 0.0, high = 0.0;  ///< range of the axis, in `unit`
-    double peak = 0.0;             ///< largest magnitude of the samples, in `unit`
     std::optional<double> mean;    ///< a line across, in `unit`
 };
 
@@ -34,7 +33,7 @@ struct History {
 ///
 /// A one-step peak is an impulse divided by the time step and leaves nothing else to see where it
 /// is shown whole. So the axes cover the middle 96 % of the averages from `average_from` [s] on,
-/// and `peak` has the values beyond. Samples are thinned with every peak kept.
+/// and the page states the largest hits. Samples are thinned with every peak kept.
 /// @param mean of the resistance [N], NaN if unknown; @param unit of all charts
 /// A run with fewer than 2 samples gives none.
 std::vector<History> force_histories(const RunData& run, double average_from, double mean,

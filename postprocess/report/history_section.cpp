@@ -2,6 +2,9 @@
 // Sections of the report with curves over time: forces, regions of the hull, tracked floes.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "postprocess/report/page.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/views/chart.hpp"
@@ -58,22 +61,31 @@ std::string draw_history(const History& h) {
 
 namespace {
 
+// The largest contact force along each axis, without friction: the charts' axes leave it out.
+std::string hits_text(const RunData& run, const RunFigures& figures) {
+    std::string out;
+    for (const History& h : figures.histories) {
+        if (!h.id.starts_with("force-")) continue;
+        const int axis = h.id.back() - 'x';
+        double largest = 0.0;
+        for (const HistoryRow& row : run.history)
+            largest = std::max(largest, std::abs(row.contact_force[axis]));
+        out += fmt::format("{}{} {}", out.empty() ? "" : ", ", h.id.back(),
+                           figures.unit.text(largest));
+    }
+    return out;
+}
+
 std::string axes_note(const RunData& run, const RunFigures& figures) {
-    std::string peaks;
-    for (const History& h : figures.histories)
-        // largest single hits in words, since the axes leave them out
-        if (h.id.starts_with("force-"))
-            peaks += fmt::format("{}{} {}", peaks.empty() ? "" : ", ", h.id.back(),
-                                 figures.unit.text(h.peak * h.unit.newtons));
     return fmt::format(
         "Thick: moving averages, weighted with a bell (Hann's window) that is {} s wide at half "
         "its height, here and in all charts of this page. Thin: samples. The shaded time is the "
         "averaged one. A force is the sum of the impulses of a step divided by the time step, so "
         "the height of a single hit depends on the step: the axes span the middle 96 % of the "
-        "averages after {} s, single hits reach {} {}. The bottom's coverage is the share of the "
-        "wetted hull, seen from below, that ice hides.",
-        views::readable(average_window(run.history)), views::readable(figures.average_from), peaks,
-        figures.unit.name);
+        "averages after {} s. Single hits of the contact force, without friction, reach {} {}. The "
+        "bottom's coverage is the share of the wetted hull, seen from below, that ice hides.",
+        views::readable(average_window(run.history)), views::readable(figures.average_from),
+        hits_text(run, figures), figures.unit.name);
 }
 
 std::string chart_section(const std::string& id, const std::string& heading,

@@ -169,27 +169,48 @@ std::string region_table(const Summary& s, const ForceUnit& unit) {
     return table(header, rows);
 }
 
+namespace {
+
+// An entry of the energy ledger and its row in the table.
+struct EnergyRow {
+    const char* key;
+    const char* name;
+    const char* source;  // of an entry that puts energy in, its name in the sentence of the balance
+};
+
+// In the order of (19) in section 8 of docs/method.md: sources, destinations, the residual.
+constexpr EnergyRow kEnergyRows[]{
+    {"ship_work_J", "Work of the ship", "Work of the ship"},
+    {"drift_work_J", "Put in by drifting ice that is held", "drifting ice"},
+    {"separation_J", "Put in by opening overlaps", "opened overlaps"},
+    {"water_work_J", "Put in by the moving water", "moving water"},
+    {"applied_work_J", "Put in by applied loads", "applied loads"},
+    {"potential_J", "Gained as potential energy", nullptr},
+    {"kinetic_change_J", "Gained as kinetic energy", nullptr},
+    {"friction_J", "Lost to friction", nullptr},
+    {"restitution_J", "Lost in impacts", nullptr},
+    {"crushing_J", "Lost to crushing", nullptr},
+    {"breaking_J", "Lost to ice before it breaks off", nullptr},
+    {"drag_J", "Lost to drag", nullptr},
+    {"buoyancy_moment_J", "Taken by the moment that buoyancy \"centre\" leaves out", nullptr},
+    {"residual_J", "Not explained", nullptr}};
+
+}  // namespace
+
+std::string energy_balance(const Summary& s) {
+    std::string sources;
+    for (const EnergyRow& row : kEnergyRows)
+        if (row.source != nullptr && s.energy.contains(row.key))
+            sources += (sources.empty() ? "" : " + ") + std::string(row.source);
+    return sources + " = the sum of all entries below them.";
+}
+
 std::string energy_table(const Summary& s) {
-    // in the order of the energy ledger: work done, its destinations, the residual
-    static const std::vector<std::pair<const char*, const char*>> kRows{
-        {"ship_work_J", "Work of the ship"},
-        {"separation_J", "Put in by opening overlaps"},
-        {"water_work_J", "Put in by the moving water"},
-        {"applied_work_J", "Put in by applied loads"},
-        {"potential_J", "Gained as potential energy"},
-        {"kinetic_change_J", "Gained as kinetic energy"},
-        {"friction_J", "Lost to friction"},
-        {"restitution_J", "Lost in impacts"},
-        {"crushing_J", "Lost to crushing"},
-        {"breaking_J", "Lost to ice before it breaks off"},
-        {"drag_J", "Lost to drag"},
-        {"buoyancy_moment_J", "Taken by the moment that buoyancy \"centre\" leaves out"},
-        {"residual_J", "Not explained"}};
     const auto work = s.energy.find("ship_work_J");
     if (work == s.energy.end() || !s.energy.contains("residual_J")) return "";
     std::vector<std::string> names;
     std::vector<double> values;
-    for (const auto& [key, name] : kRows) {
+    for (const auto& [key, name, source] : kEnergyRows) {
         const auto found = s.energy.find(key);
         if (found == s.energy.end()) continue;
         names.emplace_back(name);
@@ -214,12 +235,36 @@ std::string energy_table(const Summary& s) {
     return table({"Energy [" + unit.name + "]", "Whole run", "Share [%]"}, rows);
 }
 
+namespace {
+
+// The count alone says nothing about the mean: most steps may miss the tolerance by very little.
+std::string unconverged_text(const Summary& s) {
+    std::string out = fmt::format("{} of {}", s.unconverged_steps, s.steps);
+    // summaries of older programs lack the share
+    if (s.unconverged_steps > 0 && std::isfinite(s.residual_share))
+        out += fmt::format(
+            "; the impulses that they lack are {:.2g} % of all (a warning from {:g} % on)",
+            100.0 * s.residual_share, 100.0 * kMatters);
+    return out;
+}
+
+std::string overlap_text(const Summary& s) {
+    std::string out = readable(1000.0 * s.max_overlap) + " mm";
+    const auto work = s.energy.find("ship_work_J"), put_in = s.energy.find("separation_J");
+    if (work != s.energy.end() && put_in != s.energy.end() && work->second != 0.0)
+        out += fmt::format("; opening all overlaps added {:.2g} % of the ship's work",
+                           100.0 * put_in->second / work->second + 0.0);
+    return out;
+}
+
+}  // namespace
+
 std::string numerics_table(const Summary& s) {
     std::vector<std::pair<std::string, std::string>> rows{
         {"Contacts with an impulse", "mean " + readable(s.contacts_mean) + ", largest " +
                                          readable(s.contacts_max) + " per step"},
-        {"Deepest overlap", readable(1000.0 * s.max_overlap) + " mm"},
-        {"Steps that did not converge", fmt::format("{} of {}", s.unconverged_steps, s.steps)},
+        {"Deepest overlap", overlap_text(s)},
+        {"Steps that did not converge", unconverged_text(s)},
         {"Spheres", fmt::format("{} hull, {} ice", s.hull_spheres, s.ice_spheres)}};
     for (const auto& [key, value] : s.stage_seconds)
         rows.emplace_back("Computing time: " + spelled(key), fmt::format("{:.2f} s", value));

@@ -55,6 +55,9 @@ std::string region_table(const Summary& summary, const ForceUnit& unit);
 /// Where the ship's work went, in joules and as shares of it; "" for a run without an energy
 /// ledger.
 std::string energy_table(const Summary& summary);
+/// The balance that the rows of energy_table() fulfil, in a sentence: the entries that put energy
+/// in, as far as the run has them, are the sum of all below them.
+std::string energy_balance(const Summary& summary);
 /// Contacts, overlap, computing time: whether the numbers can be trusted.
 std::string numerics_table(const Summary& summary);
 /// The warnings with their verdicts as a list; "" when there are none.

@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "common/base/part_file.hpp"
+#include "common/base/uncertainty.hpp"
+#include "common/formulas/formula_band.hpp"
 #include "postprocess/report/find_sweep.hpp"
 #include "postprocess/report/formula_section.hpp"
 #include "postprocess/report/page.hpp"
@@ -65,14 +67,23 @@ std::string steadiness(const ForceStatistics& f, const ForceUnit& unit) {
     return text;
 }
 
+// what the interval leaves out
+std::string model_words(const IceParticulars& ice) {
+    if (is_level_ice(ice))
+        return fmt::format(
+            "the error of the model, {:.0f} to {:.0f} % against model tests in level ice,",
+            100.0 * kLeastLevelIceError, 100.0 * kLargestLevelIceError);
+    return fmt::format("the uncertainty of the model, about {:.0f} %,", 100.0 * kModelUncertainty);
+}
+
 std::string force_section(const Summary& s, const ForceUnit& unit) {
     return section(
         "forces", "Force of the ice on the ship",
         fmt::format(
             "Means over t \u2265 {} s. \u00b1 is the half width of the 95 % confidence interval "
-            "from the autocorrelation of this run; the uncertainty of the model, about 10 %, is "
+            "from the autocorrelation of this run; {} is "
             "not in it. Formulas are empirical estimates of the part that they name.",
-            readable(s.average_from)) +
+            readable(s.average_from), model_words(s.ice)) +
             steadiness(s.resistance, unit),
         force_table(s, unit));
 }
@@ -81,9 +92,7 @@ std::string balance_sections(const Summary& s) {
     std::string out;
     const std::string energy = energy_table(s);
     if (!energy.empty())
-        out +=
-            section("energy", "Where the ship's work went",
-                    "Work of the ship + opened overlaps = the sum of all other entries.", energy);
+        out += section("energy", "Where the ship's work went", energy_balance(s), energy);
     return out + section("numerics", "Contacts and computing time", "", numerics_table(s));
 }
 

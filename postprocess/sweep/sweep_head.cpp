@@ -75,7 +75,7 @@ private:
         append(text, "T ", "ship.draught_m", " m");
         append(text, "displacement ", "ship.displacement_kg", " t", 1e-3);
         append(text, "stem angle ", "ship.stem_angle_deg", "\u00b0");
-        append(text, "entrance angle ", "ship.entrance_angle_deg", "\u00b0");
+        append(text, "half entrance angle ", "ship.entrance_angle_deg", "\u00b0");
         return text;
     }
 

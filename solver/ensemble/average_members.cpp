@@ -152,19 +152,42 @@ bool have_trend(const Members& members) {
     return chance_of_at_least(showing, std::ssize(members), kTrendChance) <= kTrendChance;
 }
 
-// A member's own trend, in an ensemble that has none.
+bool warns_of_trend(const Summary& s) {
+    return s.resistance.trend_significant.value_or(false) && s.resistance.mean != 0.0;
+}
+
+// A member's own trend, in an ensemble that has none. Within less than a ship length a trend has a
+// cause, the floes that still spread along the hull, and is no chance.
 bool is_chance(const Member& m, const Warning& warning, bool trend) {
-    return !trend && m.summary.resistance.trend_significant.value_or(false) &&
+    return !trend && warns_of_trend(m.summary) && !is_short(m.summary.travel.averaged_lengths) &&
            warning.text == warn_of_trend(m.summary).text;
 }
 
+auto find(const Member& m, const std::string& text) {
+    return std::find_if(m.summary.warnings.begin(), m.summary.warnings.end(),
+                        [&](const Warning& w) { return w.text == text; });
+}
+
+// A member's trend replaces its warning of short averages. Where other members have that warning,
+// it is true of this one as well, and is added: it is then a warning of all, not of the others.
+Members with_short_averages(const Members& members) {
+    Members out = members;
+    for (Member& m : out) {
+        if (!warns_of_trend(m.summary) || !is_short(m.summary.travel.averaged_lengths)) continue;
+        const Warning brief = warn_of_short_averages(m.summary);
+        const bool elsewhere =
+            std::any_of(members.begin(), members.end(), [&](const Member& other) {
+                return find(other, brief.text) != other.summary.warnings.end();
+            });
+        if (elsewhere) m.summary.warnings.push_back(brief);
+    }
+    return out;
+}
+
 // A warning that all members share once, any other one with the seed of its member.
-std::vector<Warning> gather_warnings(const Members& members) {
+std::vector<Warning> gather_warnings(const Members& reported) {
+    const Members members = with_short_averages(reported);
     const bool trend = have_trend(members);
-    const auto find = [](const Member& m, const std::string& text) {
-        return std::find_if(m.summary.warnings.begin(), m.summary.warnings.end(),
-                            [&](const Warning& w) { return w.text == text; });
-    };
     std::vector<Warning> shared, single;
     for (const Member& m : members)
         for (Warning warning : m.summary.warnings) {

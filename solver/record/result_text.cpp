@@ -11,6 +11,7 @@
 
 #include "common/base/assert.hpp"
 #include "common/base/units.hpp"
+#include "common/formulas/formula_band.hpp"
 
 namespace ice {
 
@@ -85,6 +86,23 @@ std::string resistance_line(const Summary& s) {
                        force_text(r.mean, r.ci95, s.dimension),
                        std::isfinite(r.ci95) ? " (95 %)" : "", speed, speed / kKnot,
                        format(r.contact_mean), format(r.friction_mean), parts, moved);
+}
+
+std::string formulas_line(const Summary& s) {
+    // the submersion is a part only of the resistance of a ship that breaks the ice
+    if (!is_level_ice(s.ice))
+        return s.lindqvist_submersion
+                   ? "Lindqvist's submersion resistance: " + force_text(*s.lindqvist_submersion)
+                   : "";
+    const std::vector<FormulaValue> totals = comparable_formulas(s.formulas, true);
+    const auto band = band_of(totals);
+    if (!band) return "";
+    std::vector<std::string> names;
+    for (const FormulaValue& f : totals) names.push_back(f.name);
+    const Format format = format_for(band->high, 0.0, s.dimension, "N");
+    const std::string low = format(band->low), high = format(band->high);
+    return fmt::format("formulas for level ice, total: {}{} {} ({})",
+                       low == high ? "" : low + " to ", high, format.name, fmt::join(names, ", "));
 }
 
 std::string energy_line(const Summary& s) {

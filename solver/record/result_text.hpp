@@ -18,6 +18,10 @@ std::string force_text(double value);
 /// Mean resistance with interval, at the mean speed of the averaged time, and its parts.
 std::string resistance_line(const Summary& summary);
 
+/// The empirical formulas that compare with the mean: of level ice the band of their totals, of
+/// broken ice Lindqvist's submersion resistance; "" where the summary has none.
+std::string formulas_line(const Summary& summary);
+
 /// The ship's work and where at least 1 % of it went, largest share first; "" when it did none.
 /// All shares are in summary.json.
 std::string energy_line(const Summary& summary);

@@ -48,17 +48,6 @@ std::optional<double> share_of_separation(const Summary& summary) {
     return work > 0.0 ? std::optional(std::abs(energy("separation_J")) / work) : std::nullopt;
 }
 
-// Averages over less than a length; the mean's interval says how well it is known. The
-// text is the same for all members of an ensemble.
-Warning warn_of_short_averages(const Summary& summary) {
-    const ForceStatistics& r = summary.resistance;
-    return judged(
-        fmt::format("forces are averaged over {}, of {:.2f} travelled: floes need about "
-                    "one to pass along the hull; run longer (simulation.duration)",
-                    averaged_text(summary.travel.averaged_lengths), summary.travel.lengths),
-        std::isfinite(r.ci95) ? std::optional(r.ci95 / std::abs(r.mean)) : std::nullopt);
-}
-
 // Whether the averaged time is long enough; a trend that was measured says more than its length.
 void warn_of_averages(Summary& summary) {
     const ForceStatistics& r = summary.resistance;

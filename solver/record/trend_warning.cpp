@@ -25,4 +25,13 @@ Warning warn_of_trend(const Summary& summary) {
         0.5 * share);
 }
 
+Warning warn_of_short_averages(const Summary& summary) {
+    const ForceStatistics& r = summary.resistance;
+    return judged(
+        fmt::format("forces are averaged over {}, of {:.2f} travelled: floes need about "
+                    "one to pass along the hull; run longer (simulation.duration)",
+                    averaged_text(summary.travel.averaged_lengths), summary.travel.lengths),
+        std::isfinite(r.ci95) ? std::optional(r.ci95 / std::abs(r.mean)) : std::nullopt);
+}
+
 }  // namespace ice

@@ -30,7 +30,7 @@ std::string ship_line(const World& w, const ShipParticulars& ship) {
     if (w.scene.dimension == 3)
         out += fmt::format(", displacement {:.4g} t", 1e-3 * ship.displacement);
     if (std::isfinite(ship.stem_angle_deg))
-        out += fmt::format(", stem {:.0f} deg, entrance {:.0f} deg", ship.stem_angle_deg,
+        out += fmt::format(", stem {:.0f} deg, half entrance {:.0f} deg", ship.stem_angle_deg,
                            ship.entrance_angle_deg);
     return out;
 }
@@ -60,16 +60,6 @@ std::string motion_line(const World& w) {
     return out + fmt::format(", longitudinal GM {:.4g} m", e.gm_longitudinal);
 }
 
-// Until when the floes are held, as the case says it, and what these words make of the ice.
-std::string hold_text(const std::vector<std::string>& hold) {
-    std::vector<std::string> words;
-    for (const std::string& until : hold)
-        words.push_back(until == "never"    ? "never (loose)"
-                        : until == "always" ? "always (unbroken)"
-                                            : until);
-    return fmt::format("{}", fmt::join(words, ", "));
-}
-
 // Level ice has no floes yet; its line has the size of cracks, by which a wrong strength shows.
 std::string ice_line(const World& w, const IceParticulars& ice) {
     if (w.edge.lives()) {
@@ -95,7 +85,7 @@ std::string ice_line(const World& w, const IceParticulars& ice) {
     // bodies that are no loose floes, without the ship
     const auto fixed = static_cast<std::int64_t>(w.scene.bodies.size()) - 1 - ice.floes;
     if (fixed > 0) out += fmt::format("; {} pieces of unbroken ice", fixed);
-    return out + fmt::format("; held: {}", hold_text(ice.hold));
+    return out + fmt::format("; held: {}", release_rule_in_words(ice));
 }
 
 std::string distance_text(double distance) {
@@ -161,8 +151,8 @@ std::string describe_case(const World& w) {
 }
 
 std::string describe_rules(const Summary& s) {
-    return fmt::format("floes held: {}; crushing {}; averaged over {}", hold_text(s.ice.hold),
-                       pressure_text(s.ice.crushing_pressure),
+    return fmt::format("floes held: {}; crushing {}; averaged over {}",
+                       release_rule_in_words(s.ice), pressure_text(s.ice.crushing_pressure),
                        averaged_text(s.travel.averaged_lengths));
 }
 

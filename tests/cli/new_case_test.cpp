@@ -108,7 +108,7 @@ TEST_CASE("the option --check says draught, displacement, travel, steps, clearan
     CAPTURE(r.err);
     REQUIRE(r.code == 0);
     for (const char* words :
-         {"draught 1.44 m of", "displacement 20.21 t", "30 floes of 1.13",
+         {"draught 1.44 m of", "displacement 20.21 t", "half entrance 70 deg", "30 floes of 1.13",
           "held: never (loose), always (unbroken)", "10 m, 1.05 ship lengths, in 1000 steps",
           "clearance", "hull 0.1 m, 0.2 m apart", "crushing 1 MPa"})
         CHECK_THAT(r.err, Catch::Contains(words));

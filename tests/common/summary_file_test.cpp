@@ -174,8 +174,11 @@ TEST_CASE("warnings that are plain texts, as version 0.1 wrote them, are read", 
 TEST_CASE("a warning says behind its text what it does to the mean", "[formats]") {
     CHECK(with_verdict({"jam", true, 0.125}) ==
           "jam (affects the mean resistance: about 12 % of it)");
-    CHECK(with_verdict({"jam", true, 1.0}) ==
-          "jam (affects the mean resistance: about 100 % of it)");
+    CHECK(with_verdict({"jam", true, 0.99}) ==
+          "jam (affects the mean resistance: about 99 % of it)");
+    // a share of the whole, as of a mean of 0, and more than the whole are no parts of the mean
+    for (const double share : {0.996, 1.0, 7.11})
+        CHECK(with_verdict({"jam", true, share}) == "jam (the mean cannot be trusted)");
     CHECK(with_verdict({"jam", true}) == "jam (affects the mean resistance)");
     CHECK(with_verdict({"jam", false, 0.003}) ==
           "jam (hardly affects the mean resistance: about 0.3 % of it)");

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <sstream>
 
+#include "common/base/uncertainty.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/tables.hpp"
 #include "postprocess/report/write_report.hpp"
@@ -71,6 +76,109 @@ TEST_CASE("the report of a 3D run contains its numbers, pictures and origin", "[
     }
     CHECK_THAT(html, Catch::Contains("Box among floes &lt;test &amp; &quot;quotes&quot;&gt;"));
     CHECK(html.size() < kTwoMegabytes);
+}
+
+TEST_CASE("a report in ice that breaks gives the error against model tests in place of 10 %",
+          "[report]") {
+    read::RunFolder folder = make_folder();
+    using Rules = std::vector<std::string>;
+    for (const Rules& hold : {Rules{"until-bent", "always"}, Rules{"until-bent"}}) {
+        folder.summary->ice.hold = hold;
+        const std::string html = make_report(folder);
+        CHECK_THAT(html, Catch::Contains("<b>11 to 39 %</b>") &&
+                             Catch::Contains("bias +12 % over the seven tests of MT Uikku "
+                                             "(docs/validation-measured.md)") &&
+                             Catch::Contains("11 to 39 % against model tests in level ice, is not "
+                                             "in it"));
+        CHECK_THAT(html, !Catch::Contains("uncertainty of the model"));
+        CHECK_THAT(html, !Catch::Contains("\u00b1 111 N"));  // 10 % of the mean
+    }
+    folder.summary->ice.hold = {"never", "always"};
+    CHECK_THAT(make_report(folder), Catch::Contains("uncertainty of the model, 10 %") &&
+                                        Catch::Contains("uncertainty of the model, about 10 %") &&
+                                        !Catch::Contains("MT Uikku"));
+}
+
+TEST_CASE("the sentence on the ship's work names the entries that put energy in", "[report]") {
+    Summary s = *make_folder().summary;
+    CHECK(energy_balance(s) == "Work of the ship = the sum of all entries below them.");
+    s.energy["separation_J"] = 1.0;
+    s.energy["water_work_J"] = 100.0;
+    CHECK(energy_balance(s) ==
+          "Work of the ship + opened overlaps + moving water = the sum of all entries below them.");
+    s.energy["drift_work_J"] = 12.0;
+    s.energy["applied_work_J"] = 3.0;
+    CHECK(energy_balance(s) ==
+          "Work of the ship + drifting ice + opened overlaps + moving water + applied loads = the "
+          "sum of all entries below them.");
+    // the entries of the sentence are the first rows of the table
+    const std::string table = energy_table(s);
+    std::size_t at = 0;
+    for (const char* row : {"Work of the ship", "drifting ice", "opening overlaps", "moving water",
+                            "applied loads", "Lost to drag", "Not explained"}) {
+        CAPTURE(row);
+        at = table.find(row, at);
+        REQUIRE(at != std::string::npos);
+    }
+}
+
+TEST_CASE("single hits are the contact force without friction, and the page says so", "[report]") {
+    read::RunFolder folder = make_folder();
+    for (HistoryRow& row : folder.data.history) {
+        row.contact_force = {-200.0F, 30.0F, 40.0F};
+        row.friction_force = {-700.0F, 5.0F, 6.0F};
+    }
+    CHECK_THAT(make_report(folder),
+               Catch::Contains("Single hits of the contact force, without friction, reach x 200, "
+                               "y 30, z 40 N."));
+}
+
+TEST_CASE("the report's head has the half entrance angle and release rules in words", "[report]") {
+    read::RunFolder folder = make_folder();
+    folder.summary->ship.entrance_angle_deg = 28.0;
+    folder.summary->ice.hold = {"never", "always"};
+    const std::string html = make_report(folder);
+    CHECK_THAT(html, Catch::Contains("Half entrance angle") && Catch::Contains("28.0 \u00b0"));
+    // once as a card, once among the particulars
+    CHECK(count(markup_of(html), "never (loose), always (unbroken)") == 2);
+}
+
+TEST_CASE("the counts of the solver stand beside what they mean for the mean", "[report]") {
+    Summary s = *make_folder().summary;
+    s.steps = 4572;
+    s.unconverged_steps = 3448;
+    s.max_overlap = 0.0095;
+    s.residual_share = std::nan("");  // of an older program
+    CHECK_THAT(numerics_table(s), Catch::Contains("3448 of 4572<") && Catch::Contains("9.5 mm<"));
+    s.residual_share = 0.005;
+    s.energy["separation_J"] = 0.0001 * s.energy.at("ship_work_J");
+    CHECK_THAT(numerics_table(s),
+               Catch::Contains("3448 of 4572; the impulses that they lack are 0.5 % of all (a "
+                               "warning from 2 % on)<") &&
+                   Catch::Contains("9.5 mm; opening all overlaps added 0.01 % of the ship"));
+    s.unconverged_steps = 0;
+    CHECK_THAT(numerics_table(s), Catch::Contains("0 of 4572<"));
+}
+
+TEST_CASE("the errors in level ice are those of the page on measurements", "[report]") {
+    std::ifstream file(ICE_SOURCE_DIR "/docs/validation-measured.md");
+    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    // the tables' rows "| this program | mean absolute error | bias |"; the first one is of the
+    // seven tests, the first four are MT Uikku's groups
+    std::vector<std::pair<double, double>> rows;
+    const std::string row = "| this program |";
+    for (std::size_t at = page.find(row); at != std::string::npos && rows.size() < 4;
+         at = page.find(row, at + 1)) {
+        std::istringstream cells(page.substr(at + row.size(), 40));
+        char bar = 0;
+        rows.emplace_back();
+        cells >> rows.back().first >> bar >> rows.back().second;
+    }
+    REQUIRE(rows.size() == 4);
+    const auto [least, largest] = std::minmax_element(rows.begin(), rows.end());
+    CHECK(std::lround(100.0 * kLeastLevelIceError) == std::lround(least->first));
+    CHECK(std::lround(100.0 * kLargestLevelIceError) == std::lround(largest->first));
+    CHECK(std::lround(100.0 * kLevelIceBias) == std::lround(rows[0].second));
 }
 
 TEST_CASE("the report of a 2D run is per metre, without lateral force and views from above",

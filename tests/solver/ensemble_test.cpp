@@ -119,6 +119,43 @@ TEST_CASE("a trend stands where more members show one than chance explains", "[e
     CHECK(warnings(16, 3) == 3);
 }
 
+TEST_CASE("a trend within less than a ship length is no chance, and hides no short averages",
+          "[ensemble]") {
+    // two members over 0.74 ship lengths; the second one has a trend of 52 %, which chance gives
+    // one of two members too often to count in a longer window
+    const auto gathered = [](double lengths, double second_lengths) {
+        std::vector<Member> members{member(1, 400.0), member(2, 440.0)};
+        for (Member& m : members) {
+            m.summary.travel = {20.0, 2.0, m.seed == 1 ? lengths : second_lengths};
+            m.summary.resistance.ci95 = 0.09 * m.summary.resistance.mean;
+        }
+        if (lengths < 1.0)
+            members[0].summary.warnings = {warn_of_short_averages(members[0].summary)};
+        Summary& s = members[1].summary;
+        s.resistance.ci95 = 0.2 * s.resistance.mean;
+        s.resistance.trend = 0.52 * s.resistance.mean;
+        s.resistance.trend_significant = true;
+        s.warnings = {warn_of_trend(s)};
+        return average_members(members).warnings;
+    };
+    CHECK(gathered(1.2, 1.2).empty());
+    const auto both = gathered(0.74, 0.74);
+    REQUIRE(both.size() == 2);
+    CHECK_THAT(both[0].text, Catch::StartsWith("forces are averaged over 0.74 ship lengths"));
+    CHECK(both[0].share.value() == Near(0.2));  // the worst of all
+    CHECK_THAT(both[1].text, Catch::StartsWith("seed 2: the resistance rises by 52 %"));
+    CHECK(both[1].share.value() == Near(0.26));
+    // members that travel differently have warnings of their own
+    const auto one = gathered(1.2, 0.74);
+    REQUIRE(one.size() == 1);
+    CHECK_THAT(one[0].text, Catch::StartsWith("seed 2: the resistance rises by 52 %") &&
+                                Catch::Contains("0.74 ship lengths, less than one"));
+    const auto other = gathered(0.74, 0.6);
+    REQUIRE(other.size() == 2);
+    CHECK_THAT(other[0].text, Catch::StartsWith("seed 1: forces are averaged over 0.74"));
+    CHECK_THAT(other[1].text, Catch::StartsWith("seed 2: the resistance rises by 52 %"));
+}
+
 TEST_CASE("one member alone has a mean and no interval", "[ensemble]") {
     const Summary s = average_members({member(7, 100.0)});
     CHECK(s.resistance.mean == 100.0);
@@ -151,6 +188,27 @@ TEST_CASE("a run without averages, or without a touch, says so in place of numbe
     s.contacts_max = 0.0;
     CHECK(resistance_line(s) ==
           "no contact: nothing touched the ship at 0.5 m/s (0.972 kn); 3 of 9 floes moved");
+}
+
+TEST_CASE("the formulas' line compares level ice with totals, broken ice with a part", "[record]") {
+    Summary s;
+    CHECK(formulas_line(s).empty());
+    s.lindqvist_submersion = 403300.0;
+    s.formulas = {{"Lindqvist 1989", "submersion", 403300.0, false},
+                  {"Lindqvist 1989", "total", 791600.0, false},
+                  {"Riska 1997", "total", 688400.0, false},
+                  {"Jeong 2010", "buoyancy + clearing", 310000.0, false},
+                  {"Jeong 2010", "total", 700000.0, true}};
+    s.ice.hold = {"never", "always"};
+    CHECK(formulas_line(s) == "Lindqvist's submersion resistance: 403.3 kN");
+    s.ice.hold = {"until-bent", "always"};
+    CHECK(formulas_line(s) ==
+          "formulas for level ice, total: 688.4 to 791.6 kN (Lindqvist 1989, Riska 1997, Jeong "
+          "2010)");
+    s.formulas = {{"Riska 1997", "total", 688400.0, false}};
+    CHECK(formulas_line(s) == "formulas for level ice, total: 688.4 kN (Riska 1997)");
+    s.formulas.clear();
+    CHECK(formulas_line(s).empty());
 }
 
 TEST_CASE("the resistance's line has both units of speed, the energy's the shares worth a word",

@@ -61,7 +61,7 @@ def check_head(work, values, table):
                     f"T {ship['draught_m']:.4g} m, displacement "
                     f"{ship['displacement_kg'] / 1000:.4g} t, "
                     f"stem angle {ship['stem_angle_deg']:.4g}°, "
-                    f"entrance angle {ship['entrance_angle_deg']:.4g}°",
+                    f"half entrance angle {ship['entrance_angle_deg']:.4g}°",
             "Ice": f"thickness 0.3 m, pieces of {ice['floe_size_mean_m']:.4g} m on the average, "
                    f"concentration {100 * ice['concentration']:.4g} %, density 870 kg/m³, "
                    "friction on the ship 0.15, ice on ice 0.3, crushing pressure 0.3 MPa",
