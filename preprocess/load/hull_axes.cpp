@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "preprocess/load/symmetry.hpp"
 
@@ -60,17 +61,32 @@ std::optional<HullAxes> find_hull_axes(const TriangleMesh& mesh) {
     return axes;
 }
 
-double fineness_ratio(const TriangleMesh& mesh, const HullAxes& axes) {
+namespace {
+
+// Breadths of sections near the lower end over those near the upper end, by their shares of the
+// length from each end.
+double breadth_ratio(const TriangleMesh& mesh, const HullAxes& axes,
+                     std::initializer_list<double> shares) {
     const Eigen::AlignedBox3d box = bounding_box(mesh);
     const double from = box.min()[axes.length], to = box.max()[axes.length];
     double low = 0.0, high = 0.0;
-    // some stations near each end: the ends themselves may be a stem or a transom
-    for (const double share : {0.02, 0.05, 0.08, 0.11, 0.14}) {
+    for (const double share : shares) {
         const double step = share * (to - from);
         low += section_width(mesh, axes.length, from + step, axes.breadth);
         high += section_width(mesh, axes.length, to - step, axes.breadth);
     }
     return low > 0.0 && high > 0.0 ? low / high : 1.0;
+}
+
+}  // namespace
+
+double fineness_ratio(const TriangleMesh& mesh, const HullAxes& axes) {
+    // some stations near each end: the ends themselves may be a stem or a transom
+    return breadth_ratio(mesh, axes, {0.02, 0.05, 0.08, 0.11, 0.14});
+}
+
+double tip_ratio(const TriangleMesh& mesh, const HullAxes& axes) {
+    return breadth_ratio(mesh, axes, {0.005});
 }
 
 }  // namespace ice

@@ -28,4 +28,7 @@ std::optional<HullAxes> find_hull_axes(const TriangleMesh& mesh);
 /// finer. 1 where nothing is cut.
 double fineness_ratio(const TriangleMesh& mesh, const HullAxes& axes);
 
+/// The same of the sections at 0.5 % of the length from each end: a stem against a transom.
+double tip_ratio(const TriangleMesh& mesh, const HullAxes& axes);
+
 }  // namespace ice

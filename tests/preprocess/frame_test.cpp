@@ -89,7 +89,8 @@ TEST_CASE("boxes, floes and this repository's meshes are never turned", "[load][
     }
     CHECK(choose(make_floe()).notes.warnings.empty());
     CHECK(choose(test::make_globe(1, 12)).frame.matrix() == Mat3::Identity());
-    for (const char* name : {"paper-floe-2d", "paper-floe-3d", "paper-hull-2d", "paper-hull-3d"}) {
+    for (const char* name : {"paper-floe-2d", "paper-floe-3d", "paper-hull-2d", "paper-hull-3d",
+                             "hull-stem-25", "hull-stem-50", "icebreaker-100m"}) {
         CAPTURE(name);
         ReadNotes notes;
         const TriangleMesh mesh = read_mesh(
@@ -141,6 +142,17 @@ TEST_CASE("doubt about a hull's axes is a warning, not a turn", "[load][frame]")
     const Chosen ended = choose(mapped(test::make_wigley(10, 2, 1, 24, 8), rows(-Y, X, Z)));
     CHECK(ended.frame.forward == Direction{1, true});
     CHECK(only_warning(ended).find("which end is the bow") != std::string::npos);
+    // and along x, which forward has anyway
+    const Chosen along_x = choose(test::make_wigley(10, 2, 1, 24, 8));
+    CHECK(along_x.frame.matrix() == Mat3::Identity());
+    CHECK(along_x.notes.guessed.at("forward") == "+x");
+    CHECK(only_warning(along_x) ==
+          "which end is the bow cannot be seen: give --forward -x if it is at -x");
+    // full shoulders against a transom, stern first
+    const TriangleMesh paper =
+        read_mesh(std::filesystem::path(ICE_SOURCE_DIR) / "meshes" / "paper-hull-3d.obj", {});
+    CHECK(only_warning(choose(mapped(paper, Vec3(-1, -1, 1).asDiagonal()))) ==
+          "the bow seems to point to -x: give --forward -x if so");
     // deeper than wide with y up: could be a bevelled floe
     const Chosen deep = choose(mapped(make_ship(10, 1, 2), rows(X, Z, -Y)));
     CHECK(deep.frame.matrix() == Mat3::Identity());
@@ -320,5 +332,8 @@ TEST_CASE("the finer end has the narrower sections", "[load][frame][analytic]") 
         v.y() *= 1.0 - 0.05 * v.x();
     }
     CHECK(fineness_ratio(wedge, {}) == Near(1.92 / 1.08).epsilon(1e-12));
+    // at 0.5 % 1.995 and 1.005
+    CHECK(tip_ratio(wedge, {}) == Near(1.995 / 1.005).epsilon(1e-12));
     CHECK(fineness_ratio(TriangleMesh{}, {}) == 1.0);
+    CHECK(tip_ratio(TriangleMesh{}, {}) == 1.0);
 }

@@ -235,7 +235,8 @@ TEST_CASE("a case described names draught, displacement, travel, clearance and s
     w.parameters.contact.crushing_pressure = 1e6;
     const std::string text = describe_case(w);
     CHECK_THAT(text, Catch::Contains("10 m long, 2 m broad, draught 0.5 m of 1 m depth") &&
-                         Catch::Contains("displacement 10 t") &&
+                         Catch::Contains("displacement 10 t, no stem angle: its forward end is "
+                                         "blunt\n") &&
                          Catch::Contains("25 floes of 1.13 to 1.13 m, 0.4 m thick") &&
                          Catch::Contains("held: never") &&
                          Catch::Contains("20 m, 2.00 ship lengths, in 2000 steps of 0.01 s") &&
