@@ -117,6 +117,18 @@ private:
         } else {
             note("up", "z");
         }
+        if (!options_.up) doubt_up();
+    }
+
+    // A warning only: a deckhouse on a hull, or a floe's form, may be broad at the bottom, too.
+    void doubt_up() {
+        if (!hull_ || hull_->prism || hull_->vertical != frame_.up.axis) return;
+        if (!narrows_upwards(mesh_, *hull_, frame_.up.positive)) return;
+        const Direction down{frame_.up.axis, !frame_.up.positive};
+        warn(
+            fmt::format("the hull is broader at the bottom than at the top: it may be upside down; "
+                        "give --up {} if so",
+                        up_name(down)));
     }
 
     // Forward given along y leaves z for up. A prism across its breadth is a floe lying flat.

@@ -37,7 +37,7 @@ struct FileFrame {
 /// are not given are taken from the file or guessed.
 struct ReadOptions {
     std::optional<double> scale;         ///< metres per file unit
-    std::optional<std::string> up;       ///< file axis that points up: "y" or "z"
+    std::optional<std::string> up;       ///< file axis that points up: y z -y -z
     std::optional<std::string> forward;  ///< direction, after `up`, of the bow: +x -x +y -y +z -z
     bool mirror_y = false;               ///< add the mirror image across y = 0 (half hulls)
 };
@@ -74,7 +74,8 @@ struct Frame {
 /// plane. The third axis is the vertical. Boxes are symmetric about both planes, most floes about
 /// none but the plane halfway up their thickness. Up is therefore z unless the vertical found is y,
 /// the breadth is at least the depth (a flat floe is thinner than wide) and the mesh is no prism
-/// across its centre plane (a floe of irregular outline is). Doubtful cases keep z, with a warning.
+/// across its centre plane (a floe of irregular outline is). Doubtful cases keep z, with a warning;
+/// so does a hull that narrows upwards (narrows_upwards()), unless the option says what is up.
 ///
 /// Forward is +x unless the hull is longest along another horizontal axis. The bow is then at the
 /// end the file calls its front; else where sections are narrower by a fifth or more between 2 %

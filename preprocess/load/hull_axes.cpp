@@ -23,6 +23,11 @@ bool is_prism(const TriangleMesh& mesh, int axis) {
 
 namespace {
 
+// Of two level sections, the upper over the lower [-] below which a hull narrows upwards, and the
+// lowest over the uppermost from which it may be upside down. Nearer to 1 rounding of a pontoon's
+// mesh would be doubted; farther from 1 hulls with steep sides pass upside down.
+constexpr double kNarrower = 0.99, kBroader = 1.1;
+
 // Extent along `across` of the section where the coordinate `along` is `station`.
 double section_width(const TriangleMesh& mesh, int along, double station, int across) {
     double low = INFINITY, high = -INFINITY;
@@ -87,6 +92,21 @@ double fineness_ratio(const TriangleMesh& mesh, const HullAxes& axes) {
 
 double tip_ratio(const TriangleMesh& mesh, const HullAxes& axes) {
     return breadth_ratio(mesh, axes, {0.005});
+}
+
+bool narrows_upwards(const TriangleMesh& mesh, const HullAxes& axes, bool upwards) {
+    const Eigen::AlignedBox3d box = bounding_box(mesh);
+    const double from = box.min()[axes.vertical], depth = box.max()[axes.vertical] - from;
+    double lowest = 0.0, last = INFINITY;
+    for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+        const double station = from + (upwards ? share : 1.0 - share) * depth;
+        const double now = section_width(mesh, axes.vertical, station, axes.length) *
+                           section_width(mesh, axes.vertical, station, axes.breadth);
+        if (!(now < kNarrower * last)) return false;
+        if (lowest == 0.0) lowest = now;
+        last = now;
+    }
+    return lowest > kBroader * last;
 }
 
 }  // namespace ice
