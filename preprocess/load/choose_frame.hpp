@@ -80,11 +80,11 @@ struct Frame {
 /// Forward is +x unless the hull is longest along another horizontal axis. The bow is then at the
 /// end the file calls its front; else where sections are narrower by a fifth or more between 2 %
 /// and 14 % of the length from the end, or by half at 0.5 % (a stem against a transom); else at the
-/// positive end, with a warning. A hull that lies
-/// along x already is not turned about even when its finer end is aft, since sterns can be fine and
-/// bows bluff: that is a warning, and so are two ends of one fineness, unless the hull is a prism
-/// (a 2D section), whose breadth says nothing of its ends. The file's front direction counts only along the hull's length:
-/// programs write it out of habit, whatever the hull's axes.
+/// positive end, with a warning. A hull that lies along x already is not turned about even when its
+/// finer end is aft, since sterns can be fine and bows bluff: that is a warning, and so are two
+/// ends of one fineness, unless the hull is a prism (a 2D section), whose breadth says nothing of
+/// its ends. The file's front direction counts only along the hull's length: programs write it out
+/// of habit, whatever the hull's axes.
 ///
 /// @param mesh   in the file's axes and units; one half of a hull is symmetric about nothing, so
 ///               axes of half hulls are never guessed
