@@ -87,7 +87,7 @@ void declare(CLI::App& app, Options& o) {
         ->transform(ice::positive_quantity(ice::Dimension::none, "0.001"))
         ->excludes(unit);
     app.add_option("--up", o.read.up, "File axis that points up (from the file, or guessed)")
-        ->check(CLI::IsMember({"y", "z"}));
+        ->check(CLI::IsMember({"y", "z", "-y", "-z"}));
     app.add_option("--forward", o.read.forward, "File direction of the bow (guessed)")
         ->check(CLI::IsMember({"+x", "-x", "+y", "-y", "+z", "-z"}));
     app.add_option("--mirror", o.mirror, "y: the file holds one half of the hull")

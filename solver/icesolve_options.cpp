@@ -27,7 +27,7 @@ void declare_new(CLI::App& app, Options& o) {
     for (const auto& [name, unit, about] :
          {std::tuple("--units", "UNIT", "unit of its file, mm, cm, m, ft or in"),
           std::tuple("--scale", "F", "metres per unit of its file"),
-          std::tuple("--up", "y|z", "axis that points up"),
+          std::tuple("--up", "y|z|-y|-z", "axis that points up"),
           std::tuple("--forward", "+x|-x|+y|...", "direction of the bow"),
           std::tuple("--mirror", "y", "the file holds one half of the hull")})
         app.add_option(name, o.of_mesh[name],

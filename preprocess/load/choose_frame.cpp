@@ -29,6 +29,10 @@ constexpr double kLong = 1.5;
 // Breadth of the finer end's sections over that of the other end [-] up to which the finer end
 // counts as the bow. Nearer to 1 a stern with fine lines would be taken for a bow.
 constexpr double kFiner = 0.8;
+// The same of the breadths at the very ends [-], where the former decides nothing: a stem of full
+// shoulders against a transom, 0.14 for the paper's hulls. Nearer to 1 a rounded transom would be
+// taken for a bow.
+constexpr double kSharper = 0.5;
 
 std::string axis_name(int axis) { return std::string(1, static_cast<char>('x' + axis)); }
 
@@ -113,6 +117,18 @@ private:
         } else {
             note("up", "z");
         }
+        if (!options_.up) doubt_up();
+    }
+
+    // A warning only: a deckhouse on a hull, or a floe's form, may be broad at the bottom, too.
+    void doubt_up() {
+        if (!hull_ || hull_->prism || hull_->vertical != frame_.up.axis) return;
+        if (!narrows_upwards(mesh_, *hull_, frame_.up.positive)) return;
+        const Direction down{frame_.up.axis, !frame_.up.positive};
+        warn(
+            fmt::format("the hull is broader at the bottom than at the top: it may be upside down; "
+                        "give --up {} if so",
+                        up_name(down)));
     }
 
     // Forward given along y leaves z for up. A prism across its breadth is a floe lying flat.
@@ -151,6 +167,15 @@ private:
 
     bool front_along_length() const { return file_.front && file_.front->axis == hull_->length; }
 
+    // -1 where the end at the smaller coordinate is clearly the finer one, +1 where the other is,
+    // 0 where the form does not tell.
+    int finer_end() const {
+        const double ends = fineness_ratio(mesh_, *hull_), tips = tip_ratio(mesh_, *hull_);
+        if (ends <= kFiner || ends >= 1.0 / kFiner) return ends < 1.0 ? -1 : 1;
+        if (tips <= kSharper || tips >= 1.0 / kSharper) return tips < 1.0 ? -1 : 1;
+        return 0;
+    }
+
     // The hull lies along the axis that forward has anyway.
     void keep_forward() {
         if (front_along_length()) {
@@ -158,14 +183,23 @@ private:
             note("forward", fmt::format("{}, as {}", frame_.forward.text(), file_said()));
             return;
         }
-        const double ratio = fineness_ratio(mesh_, *hull_);
-        note("forward", frame_.forward.text() + (ratio < 1.0 / kFiner && ratio > kFiner
-                                                     ? ", but which end is the bow cannot be seen"
-                                                     : ""));
-        // Only a warning: the axis is right, and sterns of icebreakers are fine, too.
-        if (ratio <= kFiner)
+        const int bow = finer_end();
+        // the breadth of a prism is that of a 2D section and tells nothing of its ends
+        note("forward",
+             frame_.forward.text() +
+                 (bow == 0 && hull_->prism ? ", but which end is the bow cannot be seen" : ""));
+        // Only warnings: the axis is right, and sterns of icebreakers are fine, too.
+        if (bow < 0)
             warn(fmt::format("the bow seems to point to -{0}: give --forward -{0} if so",
                              axis_name(hull_->length)));
+        else if (bow == 0 && !hull_->prism)
+            warn_of_unseen_bow();
+    }
+
+    void warn_of_unseen_bow() {
+        warn(
+            fmt::format("which end is the bow cannot be seen: give --forward -{0} if it is at -{0}",
+                        axis_name(hull_->length)));
     }
 
     void turn_forward() {
@@ -175,18 +209,13 @@ private:
             note("forward", fmt::format("{}, as {}", frame_.forward.text(), file_said()));
             return;
         }
-        const double ratio = fineness_ratio(mesh_, *hull_);
-        const bool known = ratio <= kFiner || ratio >= 1.0 / kFiner;
+        const int bow = finer_end();
         // to the positive end, unless the other one is clearly finer
-        frame_.forward = {hull_->length, ratio > kFiner};
+        frame_.forward = {hull_->length, bow >= 0};
         note("forward",
              fmt::format("{}, because the hull is longest along {}{}", frame_.forward.text(), along,
-                         known ? " and finer at that end" : ""));
-        if (!known)
-            warn(
-                fmt::format("which end is the bow cannot be seen: give --forward -{0} if it is at "
-                            "-{0}",
-                            along));
+                         bow != 0 ? " and finer at that end" : ""));
+        if (bow == 0) warn_of_unseen_bow();
     }
 
     // Longest along another axis; a floe that lies flat, a prism along up, may be.

@@ -37,7 +37,7 @@ struct FileFrame {
 /// are not given are taken from the file or guessed.
 struct ReadOptions {
     std::optional<double> scale;         ///< metres per file unit
-    std::optional<std::string> up;       ///< file axis that points up: "y" or "z"
+    std::optional<std::string> up;       ///< file axis that points up: y z -y -z
     std::optional<std::string> forward;  ///< direction, after `up`, of the bow: +x -x +y -y +z -z
     bool mirror_y = false;               ///< add the mirror image across y = 0 (half hulls)
 };
@@ -74,14 +74,17 @@ struct Frame {
 /// plane. The third axis is the vertical. Boxes are symmetric about both planes, most floes about
 /// none but the plane halfway up their thickness. Up is therefore z unless the vertical found is y,
 /// the breadth is at least the depth (a flat floe is thinner than wide) and the mesh is no prism
-/// across its centre plane (a floe of irregular outline is). Doubtful cases keep z, with a warning.
+/// across its centre plane (a floe of irregular outline is). Doubtful cases keep z, with a warning;
+/// so does a hull that narrows upwards (narrows_upwards()), unless the option says what is up.
 ///
 /// Forward is +x unless the hull is longest along another horizontal axis. The bow is then at the
 /// end the file calls its front; else where sections are narrower by a fifth or more between 2 %
-/// and 14 % of the length from the end; else at the positive end, with a warning. A hull that lies
-/// along x already is not turned about even when its finer end is aft, since sterns can be fine and
-/// bows bluff: that is a warning. The file's front direction counts only along the hull's length:
-/// programs write it out of habit, whatever the hull's axes.
+/// and 14 % of the length from the end, or by half at 0.5 % (a stem against a transom); else at the
+/// positive end, with a warning. A hull that lies along x already is not turned about even when its
+/// finer end is aft, since sterns can be fine and bows bluff: that is a warning, and so are two
+/// ends of one fineness, unless the hull is a prism (a 2D section), whose breadth says nothing of
+/// its ends. The file's front direction counts only along the hull's length: programs write it out
+/// of habit, whatever the hull's axes.
 ///
 /// @param mesh   in the file's axes and units; one half of a hull is symmetric about nothing, so
 ///               axes of half hulls are never guessed

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "preprocess/load/symmetry.hpp"
 
@@ -21,6 +22,11 @@ bool is_prism(const TriangleMesh& mesh, int axis) {
 }
 
 namespace {
+
+// Of two level sections, the upper over the lower [-] below which a hull narrows upwards, and the
+// lowest over the uppermost from which it may be upside down. Nearer to 1 rounding of a pontoon's
+// mesh would be doubted; farther from 1 hulls with steep sides pass upside down.
+constexpr double kNarrower = 0.99, kBroader = 1.1;
 
 // Extent along `across` of the section where the coordinate `along` is `station`.
 double section_width(const TriangleMesh& mesh, int along, double station, int across) {
@@ -60,17 +66,47 @@ std::optional<HullAxes> find_hull_axes(const TriangleMesh& mesh) {
     return axes;
 }
 
-double fineness_ratio(const TriangleMesh& mesh, const HullAxes& axes) {
+namespace {
+
+// Breadths of sections near the lower end over those near the upper end, by their shares of the
+// length from each end.
+double breadth_ratio(const TriangleMesh& mesh, const HullAxes& axes,
+                     std::initializer_list<double> shares) {
     const Eigen::AlignedBox3d box = bounding_box(mesh);
     const double from = box.min()[axes.length], to = box.max()[axes.length];
     double low = 0.0, high = 0.0;
-    // some stations near each end: the ends themselves may be a stem or a transom
-    for (const double share : {0.02, 0.05, 0.08, 0.11, 0.14}) {
+    for (const double share : shares) {
         const double step = share * (to - from);
         low += section_width(mesh, axes.length, from + step, axes.breadth);
         high += section_width(mesh, axes.length, to - step, axes.breadth);
     }
     return low > 0.0 && high > 0.0 ? low / high : 1.0;
+}
+
+}  // namespace
+
+double fineness_ratio(const TriangleMesh& mesh, const HullAxes& axes) {
+    // some stations near each end: the ends themselves may be a stem or a transom
+    return breadth_ratio(mesh, axes, {0.02, 0.05, 0.08, 0.11, 0.14});
+}
+
+double tip_ratio(const TriangleMesh& mesh, const HullAxes& axes) {
+    return breadth_ratio(mesh, axes, {0.005});
+}
+
+bool narrows_upwards(const TriangleMesh& mesh, const HullAxes& axes, bool upwards) {
+    const Eigen::AlignedBox3d box = bounding_box(mesh);
+    const double from = box.min()[axes.vertical], depth = box.max()[axes.vertical] - from;
+    double lowest = 0.0, last = INFINITY;
+    for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+        const double station = from + (upwards ? share : 1.0 - share) * depth;
+        const double now = section_width(mesh, axes.vertical, station, axes.length) *
+                           section_width(mesh, axes.vertical, station, axes.breadth);
+        if (!(now < kNarrower * last)) return false;
+        if (lowest == 0.0) lowest = now;
+        last = now;
+    }
+    return lowest > kBroader * last;
 }
 
 }  // namespace ice

@@ -182,12 +182,35 @@ private:
                                   : "required key 'hull.speed' (or hull.speed_table) is missing");
         check_flow();
         for (std::size_t g = 0; g < groups_; ++g) check_source(g);
-        if (groups_ == 0 && !values_.contains("level_ice.thickness"))
-            complaints_.add(
-                "no [[floes]] table and no [level_ice]: a run needs at least one group of floes");
+        if (groups_ == 0) check_level_ice();
         // the first third, in which the ship enters the ice, is left out
         if (!values_.contains("output.average_from") && values_.contains("simulation.duration"))
             values_["output.average_from"] = std::get<double>(values_["simulation.duration"]) / 3.0;
+    }
+
+    // Without floes a run needs a sheet of some thickness, whose default is none.
+    void check_level_ice() {
+        const std::string thickness = "level_ice.thickness";
+        const auto of_sheet = [](const std::string& label) {
+            return label.starts_with("level_ice.");
+        };
+        if (mistakes_.bad_keys.contains(thickness)) return;
+        const auto given = values_.find(thickness);
+        if (given != values_.end()) {
+            if (std::get<double>(given->second) == 0.0)
+                complaints_.add_at(thickness,
+                                   "level_ice.thickness = 0: a case with [level_ice] and without "
+                                   "[[floes]] needs a thickness above 0");
+        } else if (std::any_of(values_.begin(), values_.end(),
+                               [&](const auto& value) { return of_sheet(value.first); }) ||
+                   std::any_of(mistakes_.bad_keys.begin(), mistakes_.bad_keys.end(), of_sheet)) {
+            complaints_.add(
+                "required key 'level_ice.thickness' is missing: a case with [level_ice] and "
+                "without [[floes]] needs a thickness above 0");
+        } else {
+            complaints_.add(
+                "no [[floes]] table and no [level_ice]: a run needs at least one group of floes");
+        }
     }
 
     // The flow comes from a file with model "file" alone.

@@ -4,16 +4,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace ice {
 
 namespace {
 
+// Share of all ice [-] below which an area is the rounding of sums and differences of areas.
+// Larger values hide ice; smaller ones print "-7e-15 m2".
+constexpr double kNoArea = 1e-9;
+
+}  // namespace
+
+IceAreas without_rounding(IceAreas areas) {
+    const double all =
+        areas.sheet + areas.pieces + areas.crushed + std::abs(areas.brash) + areas.astern;
+    for (double* area : {&areas.crushed, &areas.brash})
+        if (std::abs(*area) < kNoArea * all) *area = 0.0;
+    return areas;
+}
+
+namespace {
+
 // The published ranges stand beside the numbers because they are the quickest check of a case:
 // cracks far outside them mean a wrong strength, modulus or thickness.
 std::string describe_strip(const LiveEdge& edge) {
-    const IceAreas areas = edge.areas();
+    const IceAreas areas = without_rounding(edge.areas());
     const auto pieces = edge.pieces();
     std::string out = fmt::format(
         "level ice: {} pieces broke off, {:.4g} m; crushed {:.3g} m, brash {:.3g} m; {} pieces far "
@@ -36,7 +53,7 @@ std::string describe_strip(const LiveEdge& edge) {
 
 std::string describe_edge(const LiveEdge& edge) {
     if (edge.is_strip()) return describe_strip(edge);
-    const IceAreas areas = edge.areas();
+    const IceAreas areas = without_rounding(edge.areas());
     const auto pieces = edge.pieces();
     std::string out = fmt::format(
         "level ice: {} pieces broke off, {:.4g} m2; crushed {:.3g} m2, brash {:.3g} m2; {} pieces "

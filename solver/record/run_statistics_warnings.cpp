@@ -98,8 +98,7 @@ void RunStatistics::warn(Summary& summary) const {
     if (contacts_max_ == 0.0) {
         Warning nothing;
         nothing.text = "nothing touched anything: does the hull reach the ice?";
-        nothing.affects_mean = true;
-        nothing.share = 1.0;
+        nothing.affects_mean = true;  // without a share: the mean is zero
         warnings.push_back(nothing);
     }
     judge_start(summary);

@@ -166,22 +166,37 @@ bool any_floe_moves(const Bodies& b) {
                        [](const Vec3& v) { return !v.isZero(0.0); });
 }
 
+// Whether neither the ship nor any ice or water has a speed.
+bool nothing_moves(const World& w) {
+    const Case& p = w.parameters;
+    return !w.ship.answers() && p.current == std::array{0.0, 0.0} &&
+           std::all_of(p.speed_table.begin(), p.speed_table.end(),
+                       [](const auto& row) { return row.second == 0.0; });
+}
+
 // Faults of the time at which the ship meets the ice; at most one warning.
 void warn_of_meeting(const Case& p, const Course& c, std::vector<Warning>& warnings) {
     // From the gravest to the mildest: a run without ice needs no word about its averages.
     const double averaged = p.duration - p.average_from;
-    if (c.clearance == kNever) {
+    if (c.clearance == kNever && p.ship_travel(0.0, p.duration) < 0.0) {
+        warnings.push_back(
+            {fmt::format("the ship moves astern, {:.4g} m at {:.4g} m/s, and no ice lies on its "
+                         "course: its bow is at +x; give hull.speed without the minus sign, or "
+                         "put hull.position after the ice",
+                         c.travel, p.ship_travel(0.0, p.duration) / p.duration),
+             true});
+    } else if (c.clearance == kNever) {
         warnings.push_back({fmt::format("no ice lies on the ship's course: it moves {:.4g} m and "
                                         "meets nothing; put hull.position before the ice, along +x",
                                         c.travel),
-                            true, 1.0});
+                            true});
     } else if (c.meets_at == kNever) {
         warnings.push_back(
             {fmt::format("the ship never meets the ice: it moves {:.4g} m, and the first ice on "
                          "its course is {:.4g} m ahead; move hull.position on, or lengthen "
                          "simulation.duration",
                          c.travel, c.clearance),
-             true, 1.0});
+             true});
     } else if (c.meets_at > p.average_from) {
         warnings.push_back(
             {fmt::format("forces are averaged from {:.4g} s, but the ship meets the ice at {:.4g} "
@@ -225,8 +240,17 @@ std::vector<Warning> check_course(const World& w) {
     std::vector<Warning> warnings;
     const Case& p = w.parameters;
     if (p.ship.free[surge]) return warnings;  // it goes as it can
+    if (any_floe_moves(w.scene.bodies)) return warnings;
+    if (nothing_moves(w)) {
+        // the mean is zero, and a share of it has no meaning
+        warnings.push_back(
+            {"hull.speed = 0 and no ice drifts: the ship meets no ice; give hull.speed or "
+             "ice.drift_velocity",
+             true});
+        return warnings;
+    }
     const Course course = measure_course(w);
-    if (!(course.travel > 0.0) || any_floe_moves(w.scene.bodies)) return warnings;
+    if (!(course.travel > 0.0)) return warnings;
     warn_of_meeting(p, course, warnings);
     // level ice that stays is wide of the hull's path by its making
     if (course.hits_fixed_at < p.duration && !p.has_level_ice())

@@ -32,6 +32,8 @@ std::string ship_line(const World& w, const ShipParticulars& ship) {
     if (std::isfinite(ship.stem_angle_deg))
         out += fmt::format(", stem {:.0f} deg, half entrance {:.0f} deg", ship.stem_angle_deg,
                            ship.entrance_angle_deg);
+    else if (w.scene.dimension == 3)  // as of a hull whose stern points ahead
+        out += ", no stem angle: its forward end is blunt";
     return out;
 }
 

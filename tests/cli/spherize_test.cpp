@@ -194,6 +194,10 @@ TEST_CASE("spherize --check says what a mesh is and what would be done, and does
                              Catch::Contains("closed solid, 12 triangles, 1 m3"));
     CHECK_THAT(slurp(w / "check.json"), Catch::Contains("deck closed by a cap"));
 
+    const Result over = w.run("spherize deck.obj --up -z --check");
+    CHECK(over.code == 0);
+    CHECK_THAT(over.out, Catch::Contains("z -1 to "));
+
     w.write("side.obj", corners + "f 5 6 7\nf 6 8 7\n" + sides.substr(0, sides.size() - 16));
     const Result side = w.run("spherize side.obj --check --json side.json");
     CHECK(side.code == 2);

@@ -89,7 +89,8 @@ TEST_CASE("boxes, floes and this repository's meshes are never turned", "[load][
     }
     CHECK(choose(make_floe()).notes.warnings.empty());
     CHECK(choose(test::make_globe(1, 12)).frame.matrix() == Mat3::Identity());
-    for (const char* name : {"paper-floe-2d", "paper-floe-3d", "paper-hull-2d", "paper-hull-3d"}) {
+    for (const char* name : {"paper-floe-2d", "paper-floe-3d", "paper-hull-2d", "paper-hull-3d",
+                             "hull-stem-25", "hull-stem-50", "icebreaker-100m"}) {
         CAPTURE(name);
         ReadNotes notes;
         const TriangleMesh mesh = read_mesh(
@@ -141,6 +142,17 @@ TEST_CASE("doubt about a hull's axes is a warning, not a turn", "[load][frame]")
     const Chosen ended = choose(mapped(test::make_wigley(10, 2, 1, 24, 8), rows(-Y, X, Z)));
     CHECK(ended.frame.forward == Direction{1, true});
     CHECK(only_warning(ended).find("which end is the bow") != std::string::npos);
+    // and along x, which forward has anyway
+    const Chosen along_x = choose(test::make_wigley(10, 2, 1, 24, 8));
+    CHECK(along_x.frame.matrix() == Mat3::Identity());
+    CHECK(along_x.notes.guessed.at("forward") == "+x");
+    CHECK(only_warning(along_x) ==
+          "which end is the bow cannot be seen: give --forward -x if it is at -x");
+    // full shoulders against a transom, stern first
+    const TriangleMesh paper =
+        read_mesh(std::filesystem::path(ICE_SOURCE_DIR) / "meshes" / "paper-hull-3d.obj", {});
+    CHECK(only_warning(choose(mapped(paper, Vec3(-1, -1, 1).asDiagonal()))) ==
+          "the bow seems to point to -x: give --forward -x if so");
     // deeper than wide with y up: could be a bevelled floe
     const Chosen deep = choose(mapped(make_ship(10, 1, 2), rows(X, Z, -Y)));
     CHECK(deep.frame.matrix() == Mat3::Identity());
@@ -149,6 +161,58 @@ TEST_CASE("doubt about a hull's axes is a warning, not a turn", "[load][frame]")
     const Chosen standing = choose(mapped(make_ship(), rows(-Z, Y, X)));
     CHECK(standing.frame.matrix() == Mat3::Identity());
     CHECK(only_warning(standing).find("longest along z") != std::string::npos);
+}
+
+TEST_CASE("a hull upside down is doubted, and --up turns it", "[load][frame]") {
+    const Mat3 over = rows(X, -Y, -Z);
+    for (const char* name : {"paper-hull-3d", "hull-stem-25", "hull-stem-50", "icebreaker-100m"}) {
+        CAPTURE(name);
+        const TriangleMesh drawn = mapped(read_mesh(std::filesystem::path(ICE_SOURCE_DIR) /
+                                                        "meshes" / (std::string(name) + ".obj"),
+                                                    {}),
+                                          over);
+        const Chosen chosen = choose(drawn);
+        CHECK(chosen.frame.matrix() == Mat3::Identity());
+        REQUIRE(chosen.notes.warnings.size() == 1);
+        CHECK(chosen.notes.warnings[0] ==
+              "the hull is broader at the bottom than at the top: it may be upside down; give --up "
+              "-z if so");
+        ReadOptions options;
+        options.up = "-z";
+        CHECK(choose(drawn, options).frame.matrix() * over == Mat3::Identity());
+        CHECK(choose(drawn, options).notes.warnings.empty());
+    }
+    // in a file with y up
+    const FileFrame file{"FBX", 1.0, Direction{1, true}, Direction{0, true}, false};
+    const TriangleMesh along_y = mapped(make_ship(), rows(X, -Z, Y));
+    REQUIRE(choose(along_y, {}, file).notes.warnings.size() == 1);
+    CHECK_THAT(choose(along_y, {}, file).notes.warnings[0], Catch::Contains("give --up -y if so"));
+    ReadOptions options;
+    options.up = "-y";
+    CHECK(choose(along_y, options, file).frame.matrix() * rows(X, -Z, Y) == Mat3::Identity());
+}
+
+TEST_CASE("a pontoon with a house on it is not upside down", "[load][frame]") {
+    TriangleMesh barge = test::make_box_mesh(Vec3(20, 6, 2));
+    TriangleMesh house = test::make_box_mesh(Vec3(4, 4, 3));
+    for (Vec3& v : house.vertices) v += Vec3(-6, 0, 2.5);
+    const auto n = static_cast<std::int32_t>(barge.vertices.size());
+    barge.vertices.insert(barge.vertices.end(), house.vertices.begin(), house.vertices.end());
+    for (const auto& t : house.triangles) {
+        barge.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+        barge.region.push_back(0);
+    }
+    CHECK_FALSE(narrows_upwards(barge, {}, true));
+    // with raked ends, and the same upside down
+    for (Vec3& v : barge.vertices)
+        if (v.z() < -0.5) v.x() *= 0.8;
+    CHECK_FALSE(narrows_upwards(barge, {}, true));
+    TriangleMesh raked = test::make_box_mesh(Vec3(20, 6, 2));
+    for (Vec3& v : raked.vertices)
+        if (v.z() < 0.0) v.x() *= 0.8;
+    CHECK_FALSE(narrows_upwards(raked, {}, true));
+    CHECK(narrows_upwards(raked, {}, false));
+    CHECK_FALSE(narrows_upwards(TriangleMesh{}, {}, true));
 }
 
 TEST_CASE("an open half hull in other axes is named", "[load][frame]") {
@@ -320,5 +384,8 @@ TEST_CASE("the finer end has the narrower sections", "[load][frame][analytic]") 
         v.y() *= 1.0 - 0.05 * v.x();
     }
     CHECK(fineness_ratio(wedge, {}) == Near(1.92 / 1.08).epsilon(1e-12));
+    // at 0.5 % 1.995 and 1.005
+    CHECK(tip_ratio(wedge, {}) == Near(1.995 / 1.005).epsilon(1e-12));
     CHECK(fineness_ratio(TriangleMesh{}, {}) == 1.0);
+    CHECK(tip_ratio(TriangleMesh{}, {}) == 1.0);
 }

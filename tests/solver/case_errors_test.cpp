@@ -98,6 +98,24 @@ TEST_CASE("every number of a case refuses NaN and, but for the crushing pressure
     CHECK(tried > 80);
 }
 
+TEST_CASE("without floes level ice needs a thickness above 0", "[case][errors]") {
+    const std::string head =
+        "[simulation]\nduration = 30.0\ntime_step = 0.01\n[hull]\nspheres = "
+        "\"hull.spheres.h5\"\nspeed = 1\n";
+    CHECK(contains(complaint(head), "no [[floes]] table and no [level_ice]"));
+    for (const auto& [lines, words] :
+         {std::pair("thickness = 0\n", ":8:1: error: level_ice.thickness = 0: a case with"),
+          std::pair("thickness = -0.8\n", "level_ice.thickness = -0.8 is outside"),
+          std::pair("extent = [1, 2, 3, 4]\n", "'level_ice.thickness' is missing")}) {
+        const std::string text = complaint(head + "[level_ice]\n" + lines);
+        CAPTURE(text);
+        CHECK(contains(text, words));
+        CHECK_FALSE(contains(text, "no [level_ice]"));
+    }
+    // beside floes 0 is no sheet
+    CHECK(complaint(kGood + "[level_ice]\nthickness = 0\n").empty());
+}
+
 TEST_CASE("of a file full of mistakes the first twenty are shown, the others counted",
           "[case][errors]") {
     std::string text;

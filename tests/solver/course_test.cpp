@@ -176,11 +176,33 @@ TEST_CASE("averages over less than a length are warned of, with the duration for
     CHECK(check_course(w).empty());
 }
 
-TEST_CASE("nothing is said of a ship at rest or of floes that drift", "[step]") {
+TEST_CASE("a ship at rest among ice and water at rest is warned of with its key", "[step]") {
     World w = world_of({Vec3(40, 0, -0.1)}, 0.0);
-    CHECK(check_course(w).empty());
+    CHECK(only_warning(w) ==
+          "hull.speed = 0 and no ice drifts: the ship meets no ice; give hull.speed or "
+          "ice.drift_velocity");
+    CHECK_FALSE(check_course(w)[0].share);  // of a mean of zero
     CHECK_FALSE(warn_of_short_averages(w));
-    w = world_of({Vec3(40, 0, -0.1)});
+    w.parameters.current = {-1.0, 0.0};  // brings the ice
+    CHECK(check_course(w).empty());
+    w.parameters.current = {0.0, 0.0};
+    w.parameters.speed_table = {{0.0, 1.0}, {10.0, 0.0}, {20.0, -1.0}};  // there and back
+    CHECK(check_course(w).empty());
+}
+
+TEST_CASE("a ship that goes astern from the ice is warned of with the sign", "[step]") {
+    const World w = world_of({Vec3(9, 0, -0.1)}, -0.5);
+    CHECK_THAT(only_warning(w),
+               Catch::Contains("the ship moves astern, 10 m at -0.5 m/s, and no ice lies") &&
+                   Catch::Contains("give hull.speed without the minus sign"));
+    CHECK_FALSE(check_course(w)[0].share);
+    // ice behind it is on its course
+    CHECK_THAT(only_warning(world_of({Vec3(-40, 0, -0.1)}, -0.5)),
+               Catch::Contains("never meets the ice"));
+}
+
+TEST_CASE("nothing is said of floes that drift", "[step]") {
+    World w = world_of({Vec3(40, 0, -0.1)});
     w.parameters.average_from = 16.0;
     w.scene.bodies.velocity[1] = Vec3(-1, 0, 0);
     CHECK(check_course(w).empty());
@@ -235,7 +257,8 @@ TEST_CASE("a case described names draught, displacement, travel, clearance and s
     w.parameters.contact.crushing_pressure = 1e6;
     const std::string text = describe_case(w);
     CHECK_THAT(text, Catch::Contains("10 m long, 2 m broad, draught 0.5 m of 1 m depth") &&
-                         Catch::Contains("displacement 10 t") &&
+                         Catch::Contains("displacement 10 t, no stem angle: its forward end is "
+                                         "blunt\n") &&
                          Catch::Contains("25 floes of 1.13 to 1.13 m, 0.4 m thick") &&
                          Catch::Contains("held: never") &&
                          Catch::Contains("20 m, 2.00 ship lengths, in 2000 steps of 0.01 s") &&

@@ -10,6 +10,7 @@
 
 #include "common/base/parallel.hpp"
 #include "common/formats/checkpoint_file.hpp"
+#include "solver/live_edge/describe_edge.hpp"
 #include "solver/live_edge/edge_tiles.hpp"
 #include "solver/live_edge/edge_window.hpp"
 #include "solver/record/recorder.hpp"
@@ -110,6 +111,16 @@ TEST_CASE("a ship breaks its way, ice is neither lost nor made, and no piece is 
     CHECK(w.edge.areas().brash < 0.1 * w.edge.areas().pieces);
     // a step's way of the ship, and how far the hull's convex outlines stand for it
     CHECK(deepest < 0.02);
+}
+
+TEST_CASE("an area that is the rounding of a sum is described as none", "[live_edge]") {
+    const IceAreas rounded = without_rounding({900.0, 80.0, 20.0, -7.11e-15, 0.0});
+    CHECK(rounded.brash == 0.0);
+    CHECK(rounded.crushed == 20.0);
+    CHECK(without_rounding({900.0, 80.0, 1e-8, 2e-6, 0.0}).crushed == 0.0);
+    CHECK(without_rounding({900.0, 80.0, 1e-8, 2e-6, 0.0}).brash == 2e-6);
+    // a fault of the ledger is no rounding
+    CHECK(without_rounding({900.0, 80.0, 20.0, -0.1, 0.0}).brash == -0.1);
 }
 
 TEST_CASE("new ice at the edge is crushed as deep as the ice before it",
