@@ -194,7 +194,8 @@ TEST_CASE("spherize --check says what a mesh is and what would be done, and does
                              Catch::Contains("closed solid, 12 triangles, 1 m3"));
     CHECK_THAT(slurp(w / "check.json"), Catch::Contains("deck closed by a cap"));
 
-    const Result over = w.run("spherize deck.obj --up -z --check");
+    w.write("box.obj", corners + "f 5 6 7\nf 6 8 7\n" + sides);
+    const Result over = w.run("spherize box.obj --up -z --check");
     CHECK(over.code == 0);
     CHECK_THAT(over.out, Catch::Contains("z -1 to "));
 
@@ -211,8 +212,8 @@ TEST_CASE("spherize --check says what a mesh is and what would be done, and does
     const Result cut = w.run("spherize cut.obj");
     CHECK(cut.code == 2);
     CHECK_THAT(cut.err, Catch::Contains("no face uses its last 1 vertices"));
-    CHECK(w.files() ==
-          std::vector<std::string>{"check.json", "cut.obj", "deck.obj", "side.json", "side.obj"});
+    CHECK(w.files() == std::vector<std::string>{"box.obj", "check.json", "cut.obj", "deck.obj",
+                                                "side.json", "side.obj"});
 }
 
 TEST_CASE("spherize into a folder that does not exist fails with exit code 1", "[cli][errors]") {
