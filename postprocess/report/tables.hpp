@@ -55,8 +55,8 @@ std::string region_table(const Summary& summary, const ForceUnit& unit);
 /// Where the ship's work went, in joules and as shares of it; "" for a run without an energy
 /// ledger.
 std::string energy_table(const Summary& summary);
-/// The balance that the rows of energy_table() fulfil, in a sentence: the entries that put energy
-/// in, as far as the run has them, are the sum of all below them.
+/// The balance of the rows of energy_table(), in a sentence: the entries that put energy in are
+/// together as large as all entries below them. Entries that the run does not have are left out.
 std::string energy_balance(const Summary& summary);
 /// Contacts, overlap, computing time: whether the numbers can be trusted.
 std::string numerics_table(const Summary& summary);

@@ -67,7 +67,7 @@ std::string steadiness(const ForceStatistics& f, const ForceUnit& unit) {
     return text;
 }
 
-// what the interval leaves out
+// The error of the model, which the interval does not contain.
 std::string model_words(const IceParticulars& ice) {
     if (is_level_ice(ice))
         return fmt::format(

@@ -29,7 +29,7 @@ constexpr double kOnSurface = 1e-6;
 constexpr double kRounding = 1e-12;
 // Share of a part's area [-] away from the solid from which the part bounds nothing of it. A larger
 // value leaves fewer parts out of the comparison, so that its largest distance grows; a smaller one
-// leaves out parts of which the solid has most.
+// leaves out parts that lie mostly in the solid.
 constexpr double kMostlyAway = 0.5;
 
 // A piece of one surface and how far the other is.

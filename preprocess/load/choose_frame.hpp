@@ -75,7 +75,8 @@ struct Frame {
 /// none but the plane halfway up their thickness. Up is therefore z unless the vertical found is y,
 /// the breadth is at least the depth (a flat floe is thinner than wide) and the mesh is no prism
 /// across its centre plane (a floe of irregular outline is). Doubtful cases keep z, with a warning;
-/// so does a hull that narrows upwards (narrows_upwards()), unless the option says what is up.
+/// a hull that narrows upwards (narrows_upwards()) keeps z with a warning, too, where no option
+/// gives the axis.
 ///
 /// Forward is +x unless the hull is longest along another horizontal axis. The bow is then at the
 /// end the file calls its front; else where sections are narrower by a fifth or more between 2 %
