@@ -1,8 +1,9 @@
 # ice_unite(TARGET [APART source...]): with ICE_UNITED_SOURCES=ON a folder's small sources compile
 # together, some 30 kB at a time: headers are read, and what they instantiate is compiled, once for
-# several files. Alone remain kernels (SIMD twins include themselves) and APART, sources that import
-# a whole namespace or whose class has members of types of its own. Names in anonymous namespaces
-# must differ within a folder; the compiler says where they do not.
+# several files; of tests likewise. Alone remain kernels (SIMD twins include themselves), sources of
+# other folders, and APART: sources that import a whole namespace, whose class has members of types
+# of its own, or that listen to Catch. Names in anonymous namespaces must differ within a folder;
+# the compiler says where they do not.
 #
 # `./bootstrap.sh` switches it on for all its commands, so that its tests see what its users
 # compile. Off in a build by hand: a change costs one file there, ccache shares it, and the compiler
@@ -17,7 +18,7 @@ function(ice_unite target)
   endif()
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "APART")
   get_target_property(sources ${target} SOURCES)
-  list(FILTER sources EXCLUDE REGEX "(_simd|_reference)\\.cpp$|^/")
+  list(FILTER sources EXCLUDE REGEX "(_simd|_reference)\\.cpp$|^/|^\\.\\./")
   list(REMOVE_ITEM sources ${arg_APART})
   foreach(source IN LISTS sources)
     cmake_path(GET source PARENT_PATH folder)

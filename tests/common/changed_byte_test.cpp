@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kFlips = 200;
 
-SphereSet make_set() {
+SphereSet make_small_set() {
     SphereSet set;
     set.radius = set.spacing = 0.1;
     set.mode = "fill";
@@ -37,13 +37,13 @@ SphereSet make_set() {
     return set;
 }
 
-Field make_field() {
+Field make_small_field() {
     Field field;
     field.radius = field.spacing = 0.1;
     field.mode = "fill";
     field.area = {-1.0, 1.0, -1.0, 1.0};
     field.specification = "seed = 7\n";
-    field.shapes = {make_set()};
+    field.shapes = {make_small_set()};
     field.floes.resize(2);
     field.floes[1].position = {1.5, -0.5};
     return field;
@@ -94,12 +94,12 @@ void refuse_all(const Write& write, const Read& read) {
 
 TEST_CASE("a sphere set with a changed bit is refused or as before", "[formats][seal]") {
     refuse_all(
-        [](const auto& path) { write_spheres(path, make_set()); },
+        [](const auto& path) { write_spheres(path, make_small_set()); },
         [](const auto& path, const auto& again) { write_spheres(again, read_spheres(path)); });
 }
 
 TEST_CASE("a field with a changed bit is refused or as before", "[formats][seal]") {
-    refuse_all([](const auto& path) { write_field(path, make_field()); },
+    refuse_all([](const auto& path) { write_field(path, make_small_field()); },
                [](const auto& path, const auto& again) { write_field(again, read_field(path)); });
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
-#include <numbers>
 #include <random>
 
+#include "common/base/units.hpp"
 #include "solver/narrow/measure_gap.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -16,7 +16,6 @@ using ice::test::tolerance;
 
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kRadius = 0.05;  // [m]
 // lengths of the order of a metre are rounded to 1e-16, and a few of them are added
 constexpr double kRounding = 1e-14;
@@ -102,8 +101,9 @@ TEST_CASE("a corner inside a face is as deep as it is, however near the face's o
     const double depth = 0.004;
     const double y = GENERATE(0.02, 0.05, 0.061, 0.075), z = GENERATE(0.02, 0.049, 0.075);
     CAPTURE(y, z);
-    const Mat3 lean = (Eigen::AngleAxisd(11.0 * kDeg, kY) * Eigen::AngleAxisd(-10.0 * kDeg, kZ))
-                          .toRotationMatrix();
+    const Mat3 lean =
+        (Eigen::AngleAxisd(11.0 * kDegree, kY) * Eigen::AngleAxisd(-10.0 * kDegree, kZ))
+            .toRotationMatrix();
     const Feature a = tip_sphere(Vec3::Zero(), {kX, kY, kZ});
     Feature b = turned(tip_sphere(Vec3::Zero(), {-kX, -kY, -kZ}), lean);
     b.center += Vec3(-depth, -y, -z);
@@ -163,7 +163,7 @@ TEST_CASE("a corner's edges cross another body's edge as any edge does",
     const double gap = GENERATE(0.004, -0.004);
     const double beside = GENERATE(0.04, -0.02);  // from the corner to the crossing; -: beyond it
     const Feature corner = tip_sphere(Vec3::Zero(), {kX, kY, kZ});
-    const Mat3 turn = Eigen::AngleAxisd(20.0 * kDeg, kY).toRotationMatrix();
+    const Mat3 turn = Eigen::AngleAxisd(20.0 * kDegree, kY).toRotationMatrix();
     const Vec3 n = turn * kZ, along = turn * kX;
     const double s = std::sqrt(0.5);
     const Feature ridge = tip_sphere(Vec3(0, -beside, 0) + gap * n + 0.03 * along,
@@ -219,8 +219,8 @@ TEST_CASE("an edge that leans a little on a face is met where it crosses the fac
     const double gap = GENERATE(0.002, 0.0, -0.002);
     const double lean = GENERATE(0.015, 0.005);
     CAPTURE(gap, lean);
-    const Mat3 turn = (Eigen::AngleAxisd(-lean, kZ) * Eigen::AngleAxisd(10.0 * kDeg, kX) *
-                       Eigen::AngleAxisd(10.0 * kDeg, kY))
+    const Mat3 turn = (Eigen::AngleAxisd(-lean, kZ) * Eigen::AngleAxisd(10.0 * kDegree, kX) *
+                       Eigen::AngleAxisd(10.0 * kDegree, kY))
                           .toRotationMatrix();
     const Vec3 line = turn * kY;
     Vec3 n = kY.cross(line).normalized();
@@ -237,7 +237,7 @@ TEST_CASE("a corner behind one face and clear of another is not inside", "[narro
     // heels by 5 degrees: 8 mm below the ramp's plane, 0.1 m inside the side's
     const Vec3 side = kY, ramp = -kZ;
     const Feature edge = tip_sphere(Vec3::Zero(), {side, ramp}, 0.1);
-    const double heel = 5.0 * kDeg;
+    const double heel = 5.0 * kDegree;
     const Mat3 turn = Eigen::AngleAxisd(heel, -kX).toRotationMatrix();
     const Feature corner = turned(tip_sphere(Vec3::Zero(), {turn.transpose() * kX, kY, kZ}), turn);
     Feature placed = corner;
@@ -257,9 +257,9 @@ TEST_CASE("of two faces that an edge is behind, the nearer one is the contact's"
 TEST_CASE("crossed edges meet across both, with the distance of the two lines",
           "[narrow][edges][analytic]") {
     const double gap = GENERATE(0.004, 0.0, -0.004);
-    const double angle = kDeg * GENERATE(30.0, 60.0, 90.0, 150.0);
+    const double angle = kDegree * GENERATE(30.0, 60.0, 90.0, 150.0);
     const double along_a = GENERATE(0.0, 0.02), along_b = GENERATE(0.0, -0.03);
-    CAPTURE(gap, angle / kDeg, along_a, along_b);
+    CAPTURE(gap, angle / kDegree, along_a, along_b);
     // a ridge along y, and a keel along a line turned by `angle` from it
     const Feature ridge =
         tip_sphere(along_a * kY, {(kX + kZ).normalized(), (kZ - kX).normalized()});
@@ -278,7 +278,7 @@ TEST_CASE("crossed edges meet across both, with the distance of the two lines",
 TEST_CASE("crossed edges that both slope meet along the common perpendicular of their lines",
           "[narrow][edges][analytic]") {
     const double gap = GENERATE(0.004, -0.004);
-    const double slope = kDeg * GENERATE(10.0, 25.0);
+    const double slope = kDegree * GENERATE(10.0, 25.0);
     const Vec3 line_a(0, std::cos(slope), std::sin(slope)),
         line_b(std::cos(slope), 0, -std::sin(slope));
     Vec3 n = line_a.cross(line_b).normalized();
@@ -295,9 +295,9 @@ TEST_CASE("crossed edges that both slope meet along the common perpendicular of 
 TEST_CASE("a corner over a face has the face's normal and the corner's height",
           "[narrow][edges][analytic]") {
     const double gap = GENERATE(0.004, 0.0, -0.004);
-    const double tilt = kDeg * GENERATE(1.0, 20.0, 50.0);
-    const double heading = kDeg * GENERATE(0.0, 40.0);
-    CAPTURE(gap, tilt / kDeg, heading / kDeg);
+    const double tilt = kDegree * GENERATE(1.0, 20.0, 50.0);
+    const double heading = kDegree * GENERATE(0.0, 40.0);
+    CAPTURE(gap, tilt / kDegree, heading / kDegree);
     // a cube that was upright, tilted about the line x = y, so that its corner points down
     const Mat3 turn =
         (Eigen::AngleAxisd(heading, kZ) * Eigen::AngleAxisd(tilt, Vec3(1, -1, 0).normalized()))
@@ -320,7 +320,7 @@ TEST_CASE("a corner that looks away from a face is not what touches it", "[narro
     const Feature floor = face_sphere(Vec3::Zero(), kZ, 0.1);
     check_refused(floor, tip_sphere(Vec3(0, 0, 0.002), {kX, kY, kZ}));
     // the cube leans on the edge beside this corner: its x face looks up by 30 degrees
-    const Mat3 turn = Eigen::AngleAxisd(30.0 * kDeg, kY).toRotationMatrix();
+    const Mat3 turn = Eigen::AngleAxisd(30.0 * kDegree, kY).toRotationMatrix();
     const Feature higher = tip_sphere(Vec3(0, 0, 0.002), {turn * -kX, turn * -kY, turn * -kZ});
     REQUIRE((turn * -kX).z() > 0.4);
     check_refused(floor, higher);

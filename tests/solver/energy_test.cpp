@@ -20,8 +20,7 @@ using ice::test::tolerance;
 
 namespace {
 
-const Vec3 kFloe(1.0, 0.8, 0.3);
-const double kMass = 900.0 * kFloe.prod();
+const double kMass = 900.0 * test::kPaperFloe.prod();
 
 double residual(const World& w) {
     return w.ledger.residual(potential_energy(w.scene, w.parameters));
@@ -46,7 +45,7 @@ World ball_under_plate(Case p, double speed) {
 // A floe at rest just under a plate at 1 m depth.
 World pressed_floe(const Case& p) {
     World w = test::plate_world(p, Vec3(20, 4, 0.4), 0.1, 0.1, -1.0);
-    const auto box = test::add_shape(w, test::make_box_set(kFloe, 0.05, 0.1));
+    const auto box = test::add_shape(w, test::make_box_set(test::kPaperFloe, 0.05, 0.1));
     add_floe(w.scene, box, 900.0, Vec3(0, 0, -1.15), Quaternion::Identity(), 0, false);
     return w;
 }
@@ -61,7 +60,7 @@ Case water(double dt) {
 // A floe far from the ship.
 World free_floe(const Case& p, const Vec3& position, const Quaternion& orientation) {
     World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
-    const auto box = test::add_shape(w, test::make_box_set(kFloe, 0.05, 0.1));
+    const auto box = test::add_shape(w, test::make_box_set(test::kPaperFloe, 0.05, 0.1));
     add_floe(w.scene, box, 900.0, position, orientation, 0, false);
     return w;
 }
@@ -224,7 +223,7 @@ TEST_CASE("a ship among floes: what it gives is what motion, height and losses t
     p.contact.tolerance = 1e-5;
     p.speed_table = {{0.0, 0.0}, {1.0, 1.0}};  // it starts from rest
     World w = test::plate_world(p, Vec3(2, 2, 1.0), 0.1, 0.1, -0.6);
-    const auto box = test::add_shape(w, test::make_box_set(kFloe, 0.05, 0.1));
+    const auto box = test::add_shape(w, test::make_box_set(test::kPaperFloe, 0.05, 0.1));
     for (int row = 0; row < 4; ++row)
         for (int k = -1; k <= 1; ++k)
             add_floe(w.scene, box, 900.0, Vec3(1.6 + 1.05 * row, 0.85 * k, -0.12),

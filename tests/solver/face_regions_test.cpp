@@ -16,20 +16,20 @@ using ice::test::tolerance;
 namespace {
 
 // a sum of a dozen contacts, divided by the step late or early
-constexpr double kRounding = 1e-14;
-constexpr double kRadius = 0.1, kSpacing = 0.2;
+constexpr double kAreaRounding = 1e-14;
+constexpr double kSphereRadius = 0.1, kSphereSpacing = 0.2;
 constexpr std::int32_t kHull = 0, kBow = 1, kSide = 2;
 
 // A box with a bow, x = 2, and sides, y = +-1. Spheres in edges of the bow count to the side.
 SphereSet ship_set() {
-    SphereSet set = test::make_box_set(Vec3(4, 2, 1), kRadius, kSpacing);
+    SphereSet set = test::make_box_set(Vec3(4, 2, 1), kSphereRadius, kSphereSpacing);
     set.mesh.region_names = {"hull", "bow", "side"};
     set.mesh.region = {kHull, kHull, kHull, kHull, kSide, kSide,
                        kSide, kSide, kHull, kHull, kBow,  kBow};
     for (std::size_t k = 0; k < set.surface_count; ++k) {
         const Vec3 c = set.centers[k].cwiseAbs();
-        if (c.x() > 2.0 - 1.01 * kRadius && set.centers[k].x() > 0.0) set.regions[k] = kBow;
-        if (c.y() > 1.0 - 1.01 * kRadius) set.regions[k] = kSide;
+        if (c.x() > 2.0 - 1.01 * kSphereRadius && set.centers[k].x() > 0.0) set.regions[k] = kBow;
+        if (c.y() > 1.0 - 1.01 * kSphereRadius) set.regions[k] = kSide;
     }
     return set;
 }
@@ -122,7 +122,7 @@ TEST_CASE("where a border runs across a plane the nearer face counts", "[regions
     const FaceRegions regions(set);
     for (const double y : {-0.4, 0.0, 0.4})
         for (const double beside : {-0.13, 0.13}) {
-            const std::int32_t k = sphere_at(set, Vec3(-2.0 * y + beside, y, 0.5 - kRadius));
+            const std::int32_t k = sphere_at(set, Vec3(-2.0 * y + beside, y, 0.5 - kSphereRadius));
             const Vec3& c = set.centers[static_cast<std::size_t>(k)];
             const double from_diagonal = c.x() + 2.0 * c.y();
             if (std::abs(from_diagonal) < 1e-9) continue;
@@ -138,11 +138,11 @@ TEST_CASE("ice on the shoulder pushes the bow along x and the side along y, and 
     const Booked ahead = push_floe(Vec3(2.5, 1.0, 0), 0.0, Vec3(-1, 0, 0));
     CHECK(ahead.bow.x() < -1000.0);
     CHECK(ahead.side.x() == 0.0);
-    CHECK((ahead.bow - ahead.total).norm() < tolerance(kRounding) * ahead.total.norm());
+    CHECK((ahead.bow - ahead.total).norm() < tolerance(kAreaRounding) * ahead.total.norm());
     const Booked beside = push_floe(Vec3(2.0, 1.4, 0), 0.0, Vec3(0, -1, 0));
     CHECK(beside.side.y() < -1000.0);
     CHECK(beside.bow.y() == 0.0);
-    CHECK((beside.side - beside.total).norm() < tolerance(kRounding) * beside.total.norm());
+    CHECK((beside.side - beside.total).norm() < tolerance(kAreaRounding) * beside.total.norm());
 }
 
 TEST_CASE(
@@ -156,7 +156,7 @@ TEST_CASE(
     const Vec3& nearer = yaw < 45.0 ? b.bow : b.side;
     CAPTURE(yaw);
     CHECK(-nearer.dot(n) > 1000.0);
-    CHECK((nearer - b.total).norm() < tolerance(kRounding) * b.total.norm());
+    CHECK((nearer - b.total).norm() < tolerance(kAreaRounding) * b.total.norm());
     // the vertical shoulder is cut along its height, so that nothing pushes up or down
-    CHECK((b.total - b.total.dot(n) * n).norm() < tolerance(kRounding) * b.total.norm());
+    CHECK((b.total - b.total.dot(n) * n).norm() < tolerance(kAreaRounding) * b.total.norm());
 }

@@ -16,7 +16,6 @@ using ice::test::tolerance;
 namespace {
 
 constexpr double kJitter = 0.05;  // [m]
-const Vec3 kFloe(1.0, 0.8, 0.3);
 
 Case parameters(int seed, double jitter = kJitter) {
     Case p = test::empty_space(0.01);
@@ -30,7 +29,7 @@ Case parameters(int seed, double jitter = kJitter) {
 // Floes in a row behind a hull, turned a little; every fifth is held for good.
 Scene row(int floes) {
     World w = test::plate_world(parameters(0), Vec3(1, 1, 1), 0.1, 0.2, 50.0);
-    const auto box = test::add_shape(w, test::make_box_set(kFloe, 0.05, 0.1));
+    const auto box = test::add_shape(w, test::make_box_set(test::kPaperFloe, 0.05, 0.1));
     for (int k = 0; k < floes; ++k) {
         const int group = k % 5 == 4 ? 1 : 0;
         add_floe(w.scene, box, 900.0, Vec3(1.5 * k, 0.1 * k, -0.2),
@@ -60,7 +59,7 @@ TEST_CASE("offsets and turns are spread over their whole range and no more",
           "[scene][jitter][analytic]") {
     constexpr int kFloes = 500;
     const Scene before = row(kFloes), after = jittered(kFloes, parameters(3));
-    const double most_turn = kJitter / (0.5 * kFloe.x());  // half the longest side
+    const double most_turn = kJitter / (0.5 * test::kPaperFloe.x());  // half the longest side
     Vec3 largest = Vec3::Zero(), sum = Vec3::Zero();
     int moved = 0;
     for (std::size_t i = 1; i < before.bodies.size(); ++i) {

@@ -7,9 +7,9 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "common/base/units.hpp"
 #include "tests/support/tolerance.hpp"
 
 using namespace ice;
@@ -18,7 +18,6 @@ using ice::test::tolerance;
 
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kSide = 0.1;    // of a sphere's share of a face [m]
 constexpr double kTouch = 1e-4;  // faces this close count as touching [m]
 constexpr double kFloor = 0.05;  // of a patch that stands upright
@@ -58,7 +57,7 @@ double cut_share(double angle, const Patch& patch, double depth) {
 TEST_CASE("a wing is as long as its face's half spacing and the way to the point of touch",
           "[narrow][patch][analytic]") {
     CHECK(flat_patch(0.0).wing == Near(0.5 * kSide).epsilon(1e-14));
-    CHECK(roof_patch(45.0 * kDeg, 0.0).wing == Near(0.05 + 0.5 * kSide).epsilon(1e-14));
+    CHECK(roof_patch(45.0 * kDegree, 0.0).wing == Near(0.05 + 0.5 * kSide).epsilon(1e-14));
 }
 
 TEST_CASE("a flat patch counts whole at the first touch", "[narrow][patch][analytic]") {
@@ -69,7 +68,7 @@ TEST_CASE("a flat patch counts whole at the first touch", "[narrow][patch][analy
 
 TEST_CASE("a leaning flat patch grows linearly to its whole projected area",
           "[narrow][patch][analytic]") {
-    const double lean = 20.0 * kDeg;
+    const double lean = 20.0 * kDegree;
     Patch patch = flat_patch(lean);
     // the support is the patch's lowest side, half of it below its middle
     const double height = kSide * std::sin(lean), whole = kSide * kSide * std::cos(lean);
@@ -83,14 +82,14 @@ TEST_CASE("a leaning flat patch grows linearly to its whole projected area",
 }
 
 TEST_CASE("a roof gives its width at the depth until its wings end", "[narrow][patch][analytic]") {
-    const double lean = kDeg * GENERATE(0.0, 10.0, 20.0, -20.0);
-    const double spread = 45.0 * kDeg;
+    const double lean = kDegree * GENERATE(0.0, 10.0, 20.0, -20.0);
+    const double spread = 45.0 * kDegree;
     const Patch patch = roof_patch(spread, lean);
     const double steep = spread + std::abs(lean), shallow = spread - std::abs(lean);
     const double end = patch.wing * std::sin(shallow);  // where the less steep wing is all cut
     const double width = 1.0 / std::tan(steep) + 1.0 / std::tan(shallow);
     for (const double part : {0.0, 0.1, 0.5, 0.9}) {
-        CAPTURE(lean / kDeg, part);
+        CAPTURE(lean / kDegree, part);
         const double section = kSide * part * end * width;
         CHECK(cut_area(patch, part * end) == Near(section).margin(kSide * kTouch * width));
     }
@@ -102,13 +101,13 @@ TEST_CASE("a roof gives its width at the depth until its wings end", "[narrow][p
 
 TEST_CASE("a square roof's whole section is the depth it was cut, twice",
           "[narrow][patch][analytic]") {
-    const Patch patch = roof_patch(45.0 * kDeg, 0.0);
+    const Patch patch = roof_patch(45.0 * kDegree, 0.0);
     CHECK(cut_area(patch, 0.03) == Near(2.0 * 0.03 * kSide).margin(2.0 * kTouch * kSide));
 }
 
 TEST_CASE("an upright patch keeps its twentieth, and so does one that faces backwards",
           "[narrow][patch][analytic]") {
-    const Patch patch = flat_patch(kDeg * GENERATE(90.0, 120.0, 180.0));
+    const Patch patch = flat_patch(kDegree * GENERATE(90.0, 120.0, 180.0));
     CHECK(cut_area(patch, patch.wing) == Near(kFloor * patch.share).epsilon(1e-12));
     const double half = 0.5 * (patch.wing - kTouch);
     CHECK(cut_area(patch, half) == Near(0.5 * kFloor * patch.share).epsilon(1e-12));
@@ -119,7 +118,7 @@ TEST_CASE("no patch gives more than its projected area, and more depth never les
     std::mt19937 random(11);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (int k = 0; k < 2000; ++k) {
-        Patch patch = roof_patch(89.0 * kDeg * unit(random), 180.0 * kDeg * unit(random));
+        Patch patch = roof_patch(89.0 * kDegree * unit(random), 180.0 * kDegree * unit(random));
         patch.foot = 0.05 * unit(random) * unit(random);
         const double whole = patch.share * patch.spread_cos * patch.facing;
         const double most = std::max(whole, kFloor * patch.share);
@@ -138,8 +137,8 @@ TEST_CASE("the section is that of two wings cut strip by strip", "[narrow][patch
     std::mt19937 random(12);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (int k = 0; k < 500; ++k) {
-        const double spread = 60.0 * kDeg * unit(random);
-        const double lean = (89.0 * kDeg - spread) * unit(random);  // no wing faces backwards
+        const double spread = 60.0 * kDegree * unit(random);
+        const double lean = (89.0 * kDegree - spread) * unit(random);  // no wing faces backwards
         Patch patch = roof_patch(spread, lean);
         patch.foot = 0.02 * unit(random);
         const double depth = 0.1 * unit(random);
@@ -155,7 +154,7 @@ TEST_CASE("the section is that of two wings cut strip by strip", "[narrow][patch
         const double margin = 0.5 * patch.share * (off(away) + off(other));
         const double floor =
             kFloor * patch.share * std::min(1.0, (depth + kTouch) / (patch.wing + kTouch));
-        CAPTURE(spread / kDeg, lean / kDeg, depth, patch.foot);
+        CAPTURE(spread / kDegree, lean / kDegree, depth, patch.foot);
         REQUIRE(cut_area(patch, depth) == Near(std::max(section, floor)).margin(margin));
     }
 }

@@ -25,7 +25,7 @@ using ice::test::tolerance;
 
 namespace {
 
-constexpr double kAll = std::numeric_limits<double>::infinity();
+constexpr double kWidest = std::numeric_limits<double>::infinity();
 
 RelativePose random_pose(test::Dice& dice, double apart) {
     return {Eigen::AngleAxisd(3.1 * dice.number(), dice.vector().normalized()).toRotationMatrix(),
@@ -56,12 +56,12 @@ double widest_gap(const Body& a, const Body& b, const RelativePose& pose, bool o
     std::vector<Vec3> of_b;
     for (const Vec3& v : b.mesh.vertices) of_b.push_back(pose.rotation * v + pose.translation);
     const auto gap_along = [&](const Vec3& n) {
-        double most = -kAll, least = kAll;
+        double most = -kWidest, least = kWidest;
         for (const Vec3& v : a.mesh.vertices) most = std::max(most, n.dot(v));
         for (const Vec3& v : of_b) least = std::min(least, n.dot(v));
         return least - most;
     };
-    double widest = -kAll;
+    double widest = -kWidest;
     for (const Vec3& n : a.normals) widest = std::max(widest, gap_along(n));
     for (const Vec3& n : b.normals) widest = std::max(widest, gap_along(-(pose.rotation * n)));
     for (const auto& [i, j] : a.edges)
@@ -103,7 +103,7 @@ TEST_CASE("boxes face to face, and edge across edge, are as far apart as they st
     const Body box(test::make_box_mesh(Vec3(2, 2, 2)));
     const double gap = GENERATE(0.3, 0.0, -0.2, -0.7);
     SeparatingAxes axes =
-        find_axes(box.piece, box.piece, {Mat3::Identity(), Vec3(2.0 + gap, 0.3, -0.1)}, kAll);
+        find_axes(box.piece, box.piece, {Mat3::Identity(), Vec3(2.0 + gap, 0.3, -0.1)}, kWidest);
     CHECK(axes.widest() == Near(gap).margin(1e-15));
     CHECK(axes.face_a == Near(gap).margin(1e-15));
     CHECK(axes.face_b == Near(gap).margin(1e-15));
@@ -117,7 +117,7 @@ TEST_CASE("boxes face to face, and edge across edge, are as far apart as they st
     turn.col(1) = (-n + Vec3::UnitY()).normalized();
     turn.col(2) = turn.col(0).cross(turn.col(1));
     const RelativePose pose{turn, Vec3(1, 0, 1) + gap * n - turn * Vec3(1, 1, 0)};
-    axes = find_axes(box.piece, box.piece, pose, kAll);
+    axes = find_axes(box.piece, box.piece, pose, kWidest);
     CHECK(axes.edges == Near(gap).margin(1e-15));
     CHECK(axes.edges > std::max(axes.face_a, axes.face_b) - tolerance(1e-12));
     CHECK((edge_axis(box.piece, box.piece, pose, axes.edge_a, axes.edge_b) - n).norm() <
@@ -133,7 +133,7 @@ TEST_CASE("a hundred thousand random pairs overlap and separate as brute force s
         const Body& a = bodies[static_cast<std::size_t>(k) % bodies.size()];
         const Body& b = bodies[static_cast<std::size_t>(k / 7 + 3 * k) % bodies.size()];
         const RelativePose pose = random_pose(dice, 1.6);
-        const SeparatingAxes axes = find_axes(a.piece, b.piece, pose, kAll);
+        const SeparatingAxes axes = find_axes(a.piece, b.piece, pose, kWidest);
         const double found = axes.widest();
         by_edges += axes.edges > std::max(axes.face_a, axes.face_b);
         if (found <= 0.0) {
@@ -157,7 +157,7 @@ TEST_CASE("moved along its axis by the penetration depth a pair just touches",
         const Body& a = bodies[static_cast<std::size_t>(k) % 20];
         const Body& b = bodies[static_cast<std::size_t>(k / 3) % 20];
         RelativePose pose = random_pose(dice, 1.0);
-        const SeparatingAxes axes = find_axes(a.piece, b.piece, pose, kAll);
+        const SeparatingAxes axes = find_axes(a.piece, b.piece, pose, kWidest);
         const double depth = -axes.widest();
         if (depth <= 0.0) continue;
         const Vec3 n =
@@ -166,7 +166,7 @@ TEST_CASE("moved along its axis by the penetration depth a pair just touches",
                 ? a.piece.normals[static_cast<std::size_t>(axes.plane_a)]
                 : Vec3(-(pose.rotation * b.piece.normals[static_cast<std::size_t>(axes.plane_b)]));
         pose.translation += depth * n;
-        REQUIRE(find_axes(a.piece, b.piece, pose, kAll).widest() == Near(0.0).margin(1e-12));
+        REQUIRE(find_axes(a.piece, b.piece, pose, kWidest).widest() == Near(0.0).margin(1e-12));
     }
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("a search that has enough has looked at fewer kinds, and one plane is 
         const ConvexPiece& a = bodies[static_cast<std::size_t>(k) % 10].piece;
         const ConvexPiece& b = bodies[static_cast<std::size_t>(k / 3) % 10].piece;
         const RelativePose pose = random_pose(dice, 2.0);
-        const SeparatingAxes all = find_axes(a, b, pose, kAll);
+        const SeparatingAxes all = find_axes(a, b, pose, kWidest);
         const SeparatingAxes some = find_axes(a, b, pose, 0.1);
         REQUIRE((some.widest() > 0.1) == (all.widest() > 0.1));
         REQUIRE(some.face_a == all.face_a);
@@ -207,8 +207,8 @@ TEST_CASE("mirror images have the same gaps, bit for bit", "[narrow][property]")
         for (const auto& [row, col] : {std::pair{0, 1}, {1, 0}, {1, 2}, {2, 1}})
             image.rotation(row, col) *= -1.0;
         image.translation.y() *= -1.0;
-        const SeparatingAxes port = find_axes(a.piece, b.piece, pose, kAll);
-        const SeparatingAxes starboard = find_axes(c.piece, d.piece, image, kAll);
+        const SeparatingAxes port = find_axes(a.piece, b.piece, pose, kWidest);
+        const SeparatingAxes starboard = find_axes(c.piece, d.piece, image, kWidest);
         REQUIRE(port.face_a == starboard.face_a);
         REQUIRE(port.face_b == starboard.face_b);
         REQUIRE(port.edges == starboard.edges);
@@ -227,7 +227,7 @@ TEST_CASE("every instruction set finds the reference's axes, bit for bit", "[nar
             const ConvexPiece& b = bodies[static_cast<std::size_t>(k / 8) % 8].piece;
             RelativePose pose = random_pose(poses, 1.5);
             if (k % 5 == 0) pose.rotation = Mat3::Identity();
-            const double enough = k % 3 == 0 ? 0.05 : kAll;
+            const double enough = k % 3 == 0 ? 0.05 : kWidest;
             REQUIRE(
                 same_bits(find_axes(a, b, pose, enough), reference::find_axes(a, b, pose, enough)));
         }

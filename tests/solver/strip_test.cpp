@@ -8,8 +8,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
+#include "common/base/units.hpp"
 #include "solver/bending/breaking_load.hpp"
 #include "solver/run/balance.hpp"
 #include "tests/support/make_strips.hpp"
@@ -19,8 +19,6 @@ using namespace ice;
 using namespace ice::test;
 
 namespace {
-
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 // Ice 1 m thick as in the table of published values: it breaks 15.85 m from its tip under 12.8
 // kN/m.
@@ -85,8 +83,8 @@ TEST_CASE("a strip bears a beam's load and breaks at a beam's length",
 
 TEST_CASE("a strip breaks in the step in which the stem's load reaches the beam's",
           "[level_ice][strip][step][analytic]") {
-    const double slope = kDeg * GENERATE(30.0, 60.0);
-    CAPTURE(slope / kDeg);
+    const double slope = kDegree * GENERATE(30.0, 60.0);
+    CAPTURE(slope / kDegree);
     const Case p = thick_case(1e-3, 0.01);
     World w = stem_at_ice(p, slope);
     const double bears = breaking_load(0.0, 1.0, p);
@@ -124,7 +122,7 @@ TEST_CASE("a strip breaks in the step in which the stem's load reaches the beam'
 }
 
 TEST_CASE("a steep stem crushes a strip and never bends it", "[level_ice][strip][step][analytic]") {
-    const double slope = kDeg * 80.0, friction = 0.2;  // tan(slope) > 1 / friction
+    const double slope = kDegree * 80.0, friction = 0.2;  // tan(slope) > 1 / friction
     Case p = thick_case(0.1, 0.02);
     p.contact.friction_ship_ice = friction;
     p.level_ice.spacing = 0.05;

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "common/base/parallel.hpp"
+#include "common/base/units.hpp"
 #include "solver/record/measure_step.hpp"
 #include "solver/run/balance.hpp"
 #include "solver/run/run.hpp"
@@ -25,7 +26,6 @@ using ice::test::Near;
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kPressure = 2e6;  // [Pa]
 constexpr double kFriction = 0.1;
 constexpr double kThickness = 1.0;
@@ -85,8 +85,8 @@ Push push_of(const World& w) {
 
 TEST_CASE("a held piece breaks off in the step in which its load is reached",
           "[step][bending][analytic]") {
-    const double slope = kDeg * GENERATE(30.0, 60.0, 70.0), load = 0.29e6;
-    CAPTURE(slope / kDeg);
+    const double slope = kDegree * GENERATE(30.0, 60.0, 70.0), load = 0.29e6;
+    CAPTURE(slope / kDegree);
     World w = leaning_plate(slope, load);
     const double sine = std::sin(slope), cosine = std::cos(slope);
     const double down_share = cosine - kFriction * sine, along_share = sine + kFriction * cosine;
@@ -141,7 +141,7 @@ TEST_CASE("peak and work before breaking are those of the closed formulas", "[be
     // (27), which the test above compares with, in numbers: slope, peak [kN], work [kJ], at 0.29 MN
     const auto [degrees, peak, work] = GENERATE(table<double, double, double>(
         {{30.0, 208.0, 16.0}, {60.0, 643.0, 56.0}, {70.0, 1139.0, 114.0}}));
-    const double slope = kDeg * degrees, load = 290.0;
+    const double slope = kDegree * degrees, load = 290.0;
     const double down = std::cos(slope) - kFriction * std::sin(slope);
     const double force = load * (std::sin(slope) + kFriction * std::cos(slope)) / down;
     const double depth = load * std::cos(slope) / (1e-3 * kPressure * kBreadth * down);
@@ -150,7 +150,7 @@ TEST_CASE("peak and work before breaking are those of the closed formulas", "[be
 }
 
 TEST_CASE("a steep side never bends the ice: it crushes the whole thickness", "[step][bending]") {
-    const double slope = kDeg * 80.0, load = 0.29e6;
+    const double slope = kDegree * 80.0, load = 0.29e6;
     World w = leaning_plate(slope, load);
     const double through = kThickness / std::tan(slope) + 0.6;
     double most = 0.0, force = 0.0;
@@ -173,7 +173,7 @@ TEST_CASE("a steep side never bends the ice: it crushes the whole thickness", "[
 }
 
 TEST_CASE("a side whose friction outweighs its slope lifts the ice", "[step][bending]") {
-    World w = leaning_plate(kDeg * 80.0, 1.0);     // any load would break it
+    World w = leaning_plate(kDegree * 80.0, 1.0);  // any load would break it
     w.parameters.contact.friction_ship_ice = 0.2;  // tan 80 deg > 1 / 0.2
     for (int k = 0; k < 50; ++k) {
         step(w);
@@ -184,7 +184,7 @@ TEST_CASE("a side whose friction outweighs its slope lifts the ice", "[step][ben
 }
 
 TEST_CASE("the factor's table holds at the normal speed of hull and ice", "[step][bending]") {
-    const double slope = kDeg * 45.0;
+    const double slope = kDegree * 45.0;
     World plain = leaning_plate(slope, 0.2e6), fast = leaning_plate(slope, 0.1e6);
     // twice the load at the speed at which the slope meets the ice
     fast.parameters.bending.factor_table = {{0.0, 1.0}, {2.0 * kSpeed * std::sin(slope), 3.0}};
@@ -200,7 +200,7 @@ namespace {
 
 // A row of pieces before a leaning plate, each 2 cm from the next.
 World row_of_pieces(Hold hold, double breaking_load) {
-    World w = leaning_plate(kDeg * 40.0, breaking_load);
+    World w = leaning_plate(kDegree * 40.0, breaking_load);
     w.parameters.floes[0].hold = hold;
     w.parameters.speed_table = {{0.0, 2.0}};
     for (int k = 1; k < 4; ++k)

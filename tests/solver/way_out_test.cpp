@@ -14,7 +14,7 @@ using ice::test::tolerance;
 
 namespace {
 
-constexpr double kNotch = 0.3;  // [m]
+constexpr double kNotchDepth = 0.3;  // [m]
 
 // Body 1: faces at x = +-1, y = +-1, z = +-0.2; its patch radius is 0.075 m.
 struct Ice {
@@ -31,7 +31,7 @@ struct Ice {
         for (std::size_t k = 0; k < shape.center.size(); ++k)
             if (shape.center[k].x() > 0.9 && std::abs(shape.center[k].y()) < 0.3)
                 w.scene.crushed.crush(body, static_cast<std::int32_t>(k), shape.center.size(),
-                                      {-kNotch, 0, 0});
+                                      {-kNotchDepth, 0, 0});
     }
     WayOut from(const Vec3& point) const {
         const Foot foot = shape.surface->closest(point);
@@ -58,10 +58,10 @@ TEST_CASE("a point behind a notch leaves the ice at the notch's bottom", "[notch
     const Ice ice;
     for (const double behind : {0.01, 0.05, 0.1}) {
         CAPTURE(behind);
-        const WayOut way = ice.from({1.0 - kNotch - behind, 0.02, 0.01});
+        const WayOut way = ice.from({1.0 - kNotchDepth - behind, 0.02, 0.01});
         CHECK(std::abs(way.depth - behind) < tolerance(1e-12));
         CHECK((way.outward - Vec3::UnitX()).norm() < tolerance(1e-12));
-        CHECK((way.foot - Vec3(1.0 - kNotch, 0.02, 0.01)).norm() < tolerance(1e-12));
+        CHECK((way.foot - Vec3(1.0 - kNotchDepth, 0.02, 0.01)).norm() < tolerance(1e-12));
     }
 }
 
@@ -69,7 +69,7 @@ TEST_CASE("a point in a notch has left the ice already", "[notch][analytic]") {
     const Ice ice;
     const WayOut way = ice.from({0.9, 0.0, 0.0});
     CHECK(std::abs(way.depth + 0.2) < tolerance(1e-12));
-    CHECK((way.foot - Vec3(1.0 - kNotch, 0, 0)).norm() < tolerance(1e-12));
+    CHECK((way.foot - Vec3(1.0 - kNotchDepth, 0, 0)).norm() < tolerance(1e-12));
 }
 
 TEST_CASE("far from notches a point leaves the ice at the mesh", "[notch][analytic]") {

@@ -22,6 +22,8 @@ inline std::size_t add_floe(Scene& scene, std::int32_t shape, double density, co
 
 namespace ice::test {
 
+inline const Vec3 kPaperFloe(1.0, 0.8, 0.3);  ///< sides of the paper's floe [m]
+
 /// No water, no gravity, one group of free floes: only contacts act.
 inline Case empty_space(double dt) {
     Case p;

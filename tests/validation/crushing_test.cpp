@@ -3,8 +3,8 @@
 // whatever spheres stand for the ice.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
+#include "common/base/units.hpp"
 #include "tests/support/make_filled_sets.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/support/tolerance.hpp"
@@ -14,9 +14,7 @@ using ice::test::Near;
 
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kPressure = 2e5;  // [Pa]
-const Vec3 kFloe(1.0, 0.8, 0.3);
 
 struct Driven {
     double work = 0.0, force = 0.0;  // of the ship [J], at the last step [N]
@@ -33,11 +31,11 @@ Driven drive(double heading, double radius, double depth, double dt, double spee
     World w;
     w.parameters = p;
     const Quaternion turn(Eigen::AngleAxisd(heading, Vec3::UnitZ()));
-    const double reach =
-        0.5 * (kFloe.x() * std::abs(std::cos(heading)) + kFloe.y() * std::abs(std::sin(heading)));
+    const double reach = 0.5 * (test::kPaperFloe.x() * std::abs(std::cos(heading)) +
+                                test::kPaperFloe.y() * std::abs(std::sin(heading)));
     w.scene = make_scene(build_shape(test::fill_box(Vec3(0.4, 4, 1), 0.1, 0.1), false),
                          Vec3(-reach - 0.2, 0, 0), Vec3(speed, 0, 0));
-    const auto shape = test::add_shape(w, test::fill_box(kFloe, radius, radius));
+    const auto shape = test::add_shape(w, test::fill_box(test::kPaperFloe, radius, radius));
     add_floe(w.scene, shape, 900.0, Vec3(0, 0, 0.02), turn, 0, true);
     Driven out;
     while (w.time * speed < depth - 1e-9) {
@@ -63,13 +61,13 @@ TEST_CASE("a plate driven against a face meets the pressure times the face",
 TEST_CASE("a plate driven against an edge meets the pressure times the section of the wedge",
           "[validation][crushing]") {
     const double radius = GENERATE(0.1, 0.05, 0.025);
-    const double heading = kDeg * GENERATE(20.0, 45.0);
+    const double heading = kDegree * GENERATE(20.0, 45.0);
     const double dt = GENERATE(0.01, 0.0025);
     // the section is depth (cot + tan) wide and 0.3 m high
     const double width = 1.0 / std::tan(heading) + std::tan(heading);
     const double depth = 0.1;
     const Driven got = drive(heading, radius, depth, dt, 0.5);
-    CAPTURE(radius, heading / kDeg, dt);
+    CAPTURE(radius, heading / kDegree, dt);
     // the edge is cut sphere by sphere: half a row of patches of side `radius` may be missing or
     // too much, on each of the two faces
     const double row = radius * (std::cos(heading) + std::sin(heading)) / 2.0;

@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
+#include "common/base/units.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/validation/table.hpp"
@@ -15,7 +15,6 @@ using namespace ice;
 
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kDraught = 1.2, kLength = 1.0, kThickness = 0.4;  // [m]
 constexpr double kRadius = 0.05;                                   // of all discs [m]
 
@@ -120,7 +119,7 @@ TEST_CASE("a slow stream of pieces costs their potential energy and the logged l
     for (const double speed : {0.2, 0.1, 0.05}) {
         CAPTURE(slope, speed);
         // without friction pieces go aft on their own: none may reach the transom
-        World w = stream(slope * kDeg, speed, 16, 30.0);
+        World w = stream(slope * kDegree, speed, 16, 30.0);
         // from 3 m of travel on, one piece after the other comes to lie under the bottom; that none
         // has left it at 7 m shows in the potential energy
         const Entry a = entry_at(w, 3.0), b = entry_at(w, 7.0);
@@ -147,7 +146,7 @@ TEST_CASE("behind a vertical transom the pieces' potential energy goes into the 
           "[validation]") {
     const double slope = GENERATE(30.0, 45.0);  // degrees
     CAPTURE(slope);
-    World w = stream(slope * kDeg, 0.1, 19, 9.0);
+    World w = stream(slope * kDegree, 0.1, 19, 9.0);
     const Entry a = entry_at(w, 3.0), b = entry_at(w, 7.0);
     // one piece goes under and one leaves per metre; seen while none is turning round the transom's
     // edge, which no two do in quite the same time

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
-#include <numbers>
 
+#include "common/base/units.hpp"
 #include "tests/support/make_filled_sets.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/validation/table.hpp"
@@ -13,10 +13,8 @@ using namespace ice;
 
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
-const Vec3 kFloe(1.0, 0.8, 0.3);
 const double kPress =
-    (1000.0 - 900.0) * 9.81 * kFloe.prod();  // what buoyancy exceeds weight by [N]
+    (1000.0 - 900.0) * 9.81 * test::kPaperFloe.prod();  // what buoyancy exceeds weight by [N]
 
 struct Pressed {
     Vec3 normal = Vec3::Zero(), friction = Vec3::Zero();  // mean forces of the ship on the floe [N]
@@ -40,8 +38,9 @@ Pressed press(double slope, double hull_radius, double hull_spacing, double floe
     // the plate's lower face goes through the hull's origin
     SphereSet plate = test::fill_box(Vec3(8, 1.6, 0.6), hull_radius, hull_spacing, turn);
     w.scene = make_scene(build_shape(plate, false), Vec3(0, 0, -6), Vec3(1, 0, 0));
-    const auto shape = test::add_shape(w, test::fill_box(kFloe, floe_radius, floe_radius));
-    const Vec3 under = turn * Vec3(0, 0, -0.3 - 0.5 * kFloe.z() - 1e-4);
+    const auto shape =
+        test::add_shape(w, test::fill_box(test::kPaperFloe, floe_radius, floe_radius));
+    const Vec3 under = turn * Vec3(0, 0, -0.3 - 0.5 * test::kPaperFloe.z() - 1e-4);
     const std::size_t floe =
         add_floe(w.scene, shape, 900.0, Vec3(0, 0, -6) + under, turn, 0, false);
     // under a slope it starts with the ship and slides up along it
@@ -73,11 +72,11 @@ TEST_CASE("a floe under a flat hull presses with its buoyancy and drags with mu 
     const double spacing = hull_radius * GENERATE(0.5, 1.0, 2.0);
     CAPTURE(hull_radius, spacing, floe_radius, slope);
     const Pressed got =
-        press(kDeg * slope, hull_radius, spacing, floe_radius, NormalRule::surface, 0.3, 1.3);
-    const Vec3 down = Eigen::AngleAxisd(-kDeg * slope, Vec3::UnitY()) * Vec3(0, 0, -1);
+        press(kDegree * slope, hull_radius, spacing, floe_radius, NormalRule::surface, 0.3, 1.3);
+    const Vec3 down = Eigen::AngleAxisd(-kDegree * slope, Vec3::UnitY()) * Vec3(0, 0, -1);
     test::validate({fmt::format("floe under a flat hull at {:g} degrees: normal force", slope), "N",
-                    kPress * std::cos(kDeg * slope), got.normal.norm(), test::within_percent(0.5),
-                    "(rho_w - rho_i) g V cos(slope)"});
+                    kPress * std::cos(kDegree * slope), got.normal.norm(),
+                    test::within_percent(0.5), "(rho_w - rho_i) g V cos(slope)"});
     test::validate({"floe under a flat hull at any slope: friction over normal force", "", 0.1,
                     got.friction.norm() / got.normal.norm(), test::within_percent(1), "mu"});
     // the sine of the angles; nothing but rounding bends them
@@ -126,7 +125,7 @@ Pressed slide_under_another(double radius, double offset) {
     w.parameters = p;
     w.scene = make_scene(build_shape(test::fill_box(Vec3(4, 1.6, 0.6), 0.1, 0.1), false),
                          Vec3(0, 0, -6), Vec3::Zero());
-    const auto shape = test::add_shape(w, test::fill_box(kFloe, radius, radius));
+    const auto shape = test::add_shape(w, test::fill_box(test::kPaperFloe, radius, radius));
     add_floe(w.scene, shape, 900.0, Vec3(0, 0, -6.4501), Quaternion::Identity(), 0, false);
     const std::size_t lower =
         add_floe(w.scene, shape, 900.0, Vec3(offset, 0, -6.7502), Quaternion::Identity(), 0, false);

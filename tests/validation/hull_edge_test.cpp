@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
+#include "common/base/units.hpp"
 #include "tests/support/make_filled_sets.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/support/tolerance.hpp"
@@ -16,7 +16,6 @@ using ice::test::Near;
 
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kSpeed = 0.5;     // [m/s]
 constexpr double kStep = 0.002;    // 1 mm of travel
 const Vec3 kPlate(1.2, 2.4, 0.3);  // its face across x is hit in the middle
@@ -34,7 +33,7 @@ struct Tip {
     TriangleMesh mesh() const {
         TriangleMesh m = test::make_box_mesh(corner ? Vec3(1.2, 1.2, 1.2) : Vec3(1.2, 1.2, 2.0));
         const Quaternion turn = corner ? Quaternion::FromTwoVectors(Vec3(1, 1, 1), Vec3::UnitX())
-                                       : Quaternion(Eigen::AngleAxisd(45 * kDeg, Vec3::UnitZ()));
+                                       : Quaternion(Eigen::AngleAxisd(45 * kDegree, Vec3::UnitZ()));
         for (Vec3& v : m.vertices) {
             v = turn * v;
             v.x() += rake * v.z();
@@ -63,8 +62,8 @@ struct Tip {
 std::vector<Tip> tips() {
     return {{"edge"},
             {"corner", 0.0, true},
-            {"stem that leans 20 degrees", std::tan(20 * kDeg)},
-            {"edge across the plate's edge", std::tan(60 * kDeg)}};
+            {"stem that leans 20 degrees", std::tan(20 * kDegree)},
+            {"edge across the plate's edge", std::tan(60 * kDegree)}};
 }
 
 Case driven_case(double pressure) {
@@ -195,7 +194,7 @@ TEST_CASE("a corner of ice that turns while it is crushed takes the pressure tim
                          Vec3(-reach - 0.2 - 1e-6, 0, 0), Vec3(kSpeed, 0, 0));
     // so heavy that it turns on as if nothing met it
     add_floe(w.scene, test::add_shape(w, test::fill_box(floe, r_ice, r_ice)), 1e12, Vec3::Zero(),
-             Quaternion(Eigen::AngleAxisd(45 * kDeg, Vec3::UnitZ())), 0, false);
+             Quaternion(Eigen::AngleAxisd(45 * kDegree, Vec3::UnitZ())), 0, false);
     Bodies& b = w.scene.bodies;
     b.angular_velocity[1] = Vec3(0, 0, turning);
     b.angular_momentum[1] = b.inverse_inertia_world[1].inverse() * b.angular_velocity[1];

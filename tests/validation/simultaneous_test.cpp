@@ -19,8 +19,6 @@ using namespace ice;
 
 namespace {
 
-const Vec3 kFloe(1.0, 0.8, 0.3);
-
 Case exact(double restitution) {
     Case p = test::empty_space(0.01);
     p.contact.restitution = restitution;
@@ -33,10 +31,10 @@ Case exact(double restitution) {
 // Floes along x with their faces `gap` apart (negative: overlapping), the first one moving.
 World row(const Case& parameters, int count, double gap, double speed) {
     World w = test::plate_world(parameters, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
-    const auto box = test::add_shape(w, test::make_box_set(kFloe, 0.05, 0.1));
+    const auto box = test::add_shape(w, test::make_box_set(test::kPaperFloe, 0.05, 0.1));
     for (int k = 0; k < count; ++k)
-        add_floe(w.scene, box, 900.0, Vec3(k * (kFloe.x() + gap), 0, 0), Quaternion::Identity(), 0,
-                 false);
+        add_floe(w.scene, box, 900.0, Vec3(k * (test::kPaperFloe.x() + gap), 0, 0),
+                 Quaternion::Identity(), 0, false);
     w.scene.bodies.momentum[1] = w.scene.bodies.mass[1] * Vec3(speed, 0, 0);
     update_derived(w.scene.bodies, 1);
     return w;
@@ -46,7 +44,7 @@ World row(const Case& parameters, int count, double gap, double speed) {
 
 TEST_CASE("a box dropped flat leaves with e of its speed and no spin", "[validation]") {
     World w = test::plate_world(exact(0.3), Vec3(4, 4, 0.4), 0.1, 0.1, 0.0);
-    const auto box = test::add_shape(w, test::make_box_set(kFloe, 0.05, 0.1));
+    const auto box = test::add_shape(w, test::make_box_set(test::kPaperFloe, 0.05, 0.1));
     add_floe(w.scene, box, 900.0, Vec3(0.013, 0.021, -0.3), Quaternion::Identity(), 0, false);
     w.scene.bodies.momentum[1] = w.scene.bodies.mass[1] * Vec3(0, 0, 1.0);
     update_derived(w.scene.bodies, 1);
@@ -99,7 +97,7 @@ TEST_CASE("a stack of ten floes under a hull comes to rest, each layer carries t
     p.contact.iterations = tight ? 300 : 30;
     p.contact.tolerance = tight ? 1e-6 : 1e-4;
     World w = test::plate_world(p, Vec3(4, 4, 0.4), 0.1, 0.1, -1.0);
-    const auto box = test::add_shape(w, test::make_box_set(kFloe, 0.05, 0.1));
+    const auto box = test::add_shape(w, test::make_box_set(test::kPaperFloe, 0.05, 0.1));
     // small gaps, none exactly above the next
     for (int k = 0; k < 10; ++k)
         add_floe(w.scene, box, 900.0, Vec3(0.02 * (k % 3), 0.01 * (k % 2), -1.152 - 0.302 * k),
@@ -115,7 +113,7 @@ TEST_CASE("a stack of ten floes under a hull comes to rest, each layer carries t
         for (std::size_t i = 1; i <= 10; ++i)
             fastest = std::max(fastest, w.scene.bodies.velocity[i].norm());
     }
-    const double net = (1000.0 - 900.0) * 9.81 * kFloe.prod();
+    const double net = (1000.0 - 900.0) * 9.81 * test::kPaperFloe.prod();
     for (int k = 0; k < 10; ++k)
         test::validate(
             {"stack of ten floes under a hull: force in a layer over the lift of the floes "
@@ -143,7 +141,7 @@ TEST_CASE("a step whose solver did not reach its tolerance says so, with its res
     Case p = exact(0.3);
     p.contact.iterations = iterations;
     World w = test::plate_world(p, Vec3(4, 4, 0.4), 0.1, 0.1, 0.0);
-    const auto box = test::add_shape(w, test::make_box_set(kFloe, 0.05, 0.1));
+    const auto box = test::add_shape(w, test::make_box_set(test::kPaperFloe, 0.05, 0.1));
     add_floe(w.scene, box, 900.0, Vec3(0.013, 0.021, -0.1505), Quaternion::Identity(), 0, false);
     w.scene.bodies.momentum[1] = w.scene.bodies.mass[1] * Vec3(0, 0, 1.0);
     update_derived(w.scene.bodies, 1);

@@ -14,8 +14,7 @@ using namespace ice;
 namespace {
 
 constexpr double kWater = 1000.0, kIce = 900.0, kGravity = 9.81, kPi = std::numbers::pi;
-const Vec3 kFloe(1.0, 0.8, 0.3);  // the paper's
-const double kDraught = kFloe.z() * kIce / kWater;
+const double kDraught = test::kPaperFloe.z() * kIce / kWater;
 
 World floating(double dt, DragModel drag) {
     Case p = test::empty_space(dt);
@@ -23,7 +22,7 @@ World floating(double dt, DragModel drag) {
     p.buoyancy = BuoyancyModel::distributed;
     p.drag = drag;
     World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
-    test::add_shape(w, test::make_box_set(kFloe, 0.05, 0.1));
+    test::add_shape(w, test::make_box_set(test::kPaperFloe, 0.05, 0.1));
     return w;
 }
 
@@ -50,7 +49,7 @@ double period(World& w, const Signal& signal) {
 // Metacentric height of the floating box about an axis along which it is `length` long, with
 // `breadth` across: KB + BM - KG.
 double metacentric_height(double breadth) {
-    return 0.5 * kDraught + breadth * breadth / (12.0 * kDraught) - 0.5 * kFloe.z();
+    return 0.5 * kDraught + breadth * breadth / (12.0 * kDraught) - 0.5 * test::kPaperFloe.z();
 }
 
 WaterLoad load_on(World& w) {
@@ -63,7 +62,8 @@ WaterLoad load_on(World& w) {
 // along the vertical allows.
 double largest_section(const Mat3& r) {
     double area = 1e300;
-    for (int k = 0; k < 3; ++k) area = std::min(area, kFloe.prod() / kFloe[k] / std::abs(r(2, k)));
+    for (int k = 0; k < 3; ++k)
+        area = std::min(area, test::kPaperFloe.prod() / test::kPaperFloe[k] / std::abs(r(2, k)));
     return area;
 }
 
@@ -78,8 +78,9 @@ TEST_CASE("a floe comes to float with the draught of its weight", "[validation][
         step(w);
         if (w.time > 40.0) mean += w.scene.bodies.position[i].z(), count += 1.0;
     }
-    test::validate({"floe left to float: draught", "m", kDraught, 0.5 * kFloe.z() - mean / count,
-                    test::within_percent(1), "h rho_i / rho_w"});
+    test::validate({"floe left to float: draught", "m", kDraught,
+                    0.5 * test::kPaperFloe.z() - mean / count, test::within_percent(1),
+                    "h rho_i / rho_w"});
 }
 
 TEST_CASE("heave, roll and pitch have the periods of linear hydrostatics", "[validation][water]") {
@@ -99,8 +100,9 @@ TEST_CASE("heave, roll and pitch have the periods of linear hydrostatics", "[val
         const double rest =
             floating_height(w.scene.shapes[1], tilt.toRotationMatrix(), kIce / kWater);
         const std::size_t i = place(w, rest, tilt);
-        const double breadth = kFloe[1 - axis];
-        const double inertia = (breadth * breadth + kFloe.z() * kFloe.z()) / 12.0;  // per mass
+        const double breadth = test::kPaperFloe[1 - axis];
+        const double inertia =
+            (breadth * breadth + test::kPaperFloe.z() * test::kPaperFloe.z()) / 12.0;  // per mass
         const double expected =
             2.0 * kPi * std::sqrt(inertia / (kGravity * metacentric_height(breadth)));
         // the third component of the upright axis across the tilt
@@ -123,11 +125,11 @@ TEST_CASE("a tilted floe is righted by the moment of the wall-sided formula",
     const Quaternion tilt(Eigen::AngleAxisd(angle, Vec3::Unit(axis)));
     const double rest = floating_height(w.scene.shapes[1], tilt.toRotationMatrix(), kIce / kWater);
     place(w, rest, tilt);
-    const double breadth = kFloe[1 - axis];
+    const double breadth = test::kPaperFloe[1 - axis];
     const double metacentre = breadth * breadth / (12.0 * kDraught);
     const double arm = std::sin(angle) * (metacentric_height(breadth) +
                                           0.5 * metacentre * std::tan(angle) * std::tan(angle));
-    const double expected = kIce * kFloe.prod() * kGravity * arm;
+    const double expected = kIce * test::kPaperFloe.prod() * kGravity * arm;
     test::validate({fmt::format("floe tilted by {:g} degrees about its {} axis: righting moment",
                                 degrees, axis == 0 ? "long" : "short"),
                     "N m", expected, -load_on(w).moment[axis], test::within_percent(1),
@@ -139,7 +141,7 @@ TEST_CASE("a released floe rises at its terminal speed", "[validation][water]") 
     const std::size_t i = place(w, -50.0);
     while (w.time < 10.0) step(w);
     test::validate({"floe rising from 50 m: terminal speed", "m/s",
-                    std::sqrt(2.0 * (kWater - kIce) / kWater * kGravity * kFloe.z()),
+                    std::sqrt(2.0 * (kWater - kIce) / kWater * kGravity * test::kPaperFloe.z()),
                     w.scene.bodies.velocity[i].z(), test::within_percent(0.5),
                     "sqrt(2 (rho_w - rho_i) g h / (rho_w C_d))"});
 }
