@@ -98,6 +98,17 @@ std::string seen_from(const fs::path& folder, const fs::path& file) {
     return fs::absolute(file).lexically_normal().lexically_relative(folder).string();
 }
 
+// A mean over less than a ship length has not seen the ship's whole side pass. Before one length in
+// the ice floes do not lie along all of it, and the resistance still rises. A little less than one:
+// the field's ends are not used to the last metre.
+void warn_of_short_field(const Draft& draft) {
+    if (draft.averaged_lengths >= 0.95 && draft.settled_lengths >= 0.95) return;
+    say_warning(fmt::format(
+        "the field is short: forces are averaged over {:.2f} ship lengths, from {:.2f} in the ice "
+        "on; area.size of {:.3g} m along x makes both one or more",
+        draft.averaged_lengths, draft.settled_lengths, kFieldLengths * draft.length));
+}
+
 }  // namespace
 
 fs::path write_new_case(const NewCase& wish) {
@@ -124,13 +135,7 @@ fs::path write_new_case(const NewCase& wish) {
     if (field.extension() == ".toml") field = make_field_file(field, folder);
     const Draft draft = draft_case(hull, field);
     write_text_file(out, draft_text(draft, seen_from(folder, hull), seen_from(folder, field)));
-    // a mean over less than a ship length has not seen the ship's whole side pass
-    // A little less than one: the field's ends are not used to the last metre.
-    if (draft.averaged_lengths < 0.95)
-        say_warning(fmt::format(
-            "the field is short: forces are averaged over {:.2f} ship lengths; area.size of {:.3g} "
-            "m along x makes it one",
-            draft.averaged_lengths, 1.6 * draft.length));
+    warn_of_short_field(draft);
     return out;
 }
 
