@@ -12,6 +12,7 @@
 #include "common/cli/sibling_program.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "common/formats/summary_file.hpp"
+#include "common/toml/recognise_input.hpp"
 #include "solver/draft/draft_case.hpp"
 
 namespace ice {
@@ -34,6 +35,18 @@ void refuse_existing(const fs::path& file, const std::string& remedy) {
 void require_file(const fs::path& file, const std::string& what) {
     if (!fs::is_regular_file(file))
         throw bad_input(file.string(), what + " not found", "check the path");
+}
+
+// A specification in the hull's place, or a mesh in the field's.
+void refuse_swapped(const NewCase& wish) {
+    const bool hull = wish.hull.extension() == ".toml";
+    const bool field = !wish.field.empty() && recognise_file(wish.field, "");
+    if (!hull && !field) return;
+    const fs::path& wrong = hull ? wish.hull : wish.field;
+    throw bad_input(wrong.string(),
+                    hull ? "is a text, no hull: the hull comes first, then the field"
+                         : "is a mesh, no field: the hull comes first, then the field",
+                    "icesolve --new HULL [FIELD]");
 }
 
 void require_program(const std::string& name) {
@@ -114,6 +127,7 @@ void warn_of_short_field(const Draft& draft) {
 fs::path write_new_case(const NewCase& wish) {
     require_file(wish.hull, "hull");
     if (!wish.field.empty()) require_file(wish.field, "field");
+    refuse_swapped(wish);
     const bool is_set = wish.hull.extension() == ".h5";
     if (is_set && !wish.mesh_options.empty())
         throw bad_input(wish.mesh_options[0],

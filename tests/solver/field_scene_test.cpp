@@ -11,6 +11,7 @@
 #include "common/formats/spheres_file.hpp"
 #include "solver/draft/draft_case.hpp"
 #include "solver/scene/build_scene.hpp"
+#include "tests/common/fixtures.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 #include "tests/support/temporary_file.hpp"
 #include "tests/support/tolerance.hpp"
@@ -143,6 +144,27 @@ TEST_CASE("a drafted case of a box hull has the numbers that follow by hand", "[
     CHECK(draft.ice_to == 25.0);
     CHECK(draft.ice_starboard == -3.0);
     CHECK(draft.ice_port == 3.0);
+}
+
+TEST_CASE("a hull under water asks for the sets that were swapped", "[scene][errors]") {
+    const test::TemporaryFile small(".spheres.h5", ""), large(".spheres.h5", "");
+    write_spheres(small.path(), box_set(kSmall, 0.1, 0.2));
+    write_spheres(large.path(), box_set({10.0, 2.0, 1.8}, 0.2, 0.4));
+    Case p;
+    p.hull_spheres = small.path();
+    p.hull_draught = 1.44;
+    p.speed_table = {{0.0, 1.0}};
+    p.floes.resize(1);
+    p.floes[0].spheres = large.path();
+    const auto complaint = [&] { return test::error_text([&] { build_scene(p); }); };
+    CHECK_THAT(complaint(),
+               Catch::Contains("the hull would lie wholly under water; the mesh is 0.4 m "
+                               "deep") &&
+                   Catch::Contains("or is hull.spheres the floe's set? "
+                                   "floes.1.spheres is 1.8 m deep"));
+    p.hull_draught = 2.0;  // more than either is deep
+    CHECK_THAT(complaint(),
+               Catch::Contains("wholly under water") && !Catch::Contains("floe's set"));
 }
 
 TEST_CASE("a drafted case of a short field averages over the last ship length all the same",
