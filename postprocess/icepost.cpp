@@ -23,6 +23,7 @@
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/write_report.hpp"
 #include "postprocess/sensitivity/write_study.hpp"
+#include "postprocess/sweep/affected_runs.hpp"
 #include "postprocess/sweep/split_sweep.hpp"
 #include "postprocess/sweep/sweep_markdown.hpp"
 #include "postprocess/sweep/write_sweep.hpp"
@@ -124,6 +125,8 @@ int sweep(const Options& o) {
     ice::write_text_file(file, ice::sweep::make_sweep_page(runs, file));
     if (const std::string faults = ice::sweep::list_faults(runs); !faults.empty())
         ice::say_warning(faults);
+    if (const std::string affected = ice::sweep::affected_line(runs); !affected.empty())
+        ice::say_warning(affected);
     ice::say(fmt::format("wrote {}", file.string()));
     if (!o.svg.empty()) write_sweep_curves(o, runs);
     // last, and alone on standard output: it can be piped into a document

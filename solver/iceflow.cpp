@@ -16,6 +16,7 @@
 #include "common/cli/start_threads.hpp"
 #include "common/formats/flow_report.hpp"
 #include "common/formats/spheres_file.hpp"
+#include "common/toml/recognise_input.hpp"
 #include "solver/flow/added_mass.hpp"
 #include "solver/flow/flow_table.hpp"
 #include "solver/flow/wetted_panels.hpp"
@@ -201,6 +202,9 @@ std::string report_text(const ice::FlowReport& r, const std::string& name) {
 int run_iceflow(const Options& o, const std::string& command_line) {
     if (o.hull.empty())
         throw ice::bad_input("iceflow", "no hull given", "iceflow HULL.spheres.h5 -o HULL.flow.h5");
+    if (const auto mesh = ice::recognise_file(o.hull, ""); mesh && std::filesystem::exists(o.hull))
+        throw ice::bad_input(o.hull, "is " + mesh->what + ", not a sphere set",
+                             "spherize " + ice::shell_word(o.hull) + " makes a sphere set of it");
     // neither changes a bit of the table
     ice::set_thread_count(o.threads);
     ice::start_threads();

@@ -26,6 +26,7 @@
 #include "solver/record/recorder.hpp"
 #include "solver/record/result_text.hpp"
 #include "solver/run/check_course.hpp"
+#include "solver/run/check_inputs.hpp"
 #include "solver/run/check_start.hpp"
 #include "solver/run/describe_case.hpp"
 #include "solver/run/describe_cost.hpp"
@@ -162,6 +163,24 @@ int describe(const ice::Options& o, ice::World& world, const std::vector<ice::Wa
     return 0;
 }
 
+// Warnings of inputs, bodies and water. A number in a wrong unit may be the cause of an error, and
+// is named before it.
+std::vector<ice::Warning> look_at_start(ice::World& world, const ice::Options& o, bool resumed) {
+    std::vector<ice::Warning> warnings = ice::check_inputs(world.parameters);
+    const auto add = [&](const std::vector<ice::Warning>& more) {
+        warnings.insert(warnings.end(), more.begin(), more.end());
+    };
+    try {
+        // of a resumed run the start is long past
+        if (!resumed) add(ice::check_start(world, o.allow_overlap));
+    } catch (const ice::Error&) {
+        say_forecasts(warnings);
+        throw;
+    }
+    add(ice::check_water(world.parameters, world.scene));
+    return warnings;
+}
+
 // Everything that can be wrong with a case is found before the run folder is claimed, so that a
 // slip in a key neither leaves an empty folder nor removes an older run.
 int run_case(const ice::Options& o, const std::string& command_line) {
@@ -176,12 +195,8 @@ int run_case(const ice::Options& o, const std::string& command_line) {
     // onto the scene that the case builds: a checkpoint holds state, no shapes
     if (!o.restart.empty()) saved.emplace(ice::read_checkpoint(o.restart, world));
     ice::SavedRun* going_on = saved ? &*saved : nullptr;
-    std::vector<ice::Warning> warnings;
-    // of a resumed run the start is long past
-    if (!saved) warnings = ice::check_start(world, o.allow_overlap);
-    const auto of_water = ice::check_water(parameters, world.scene);
-    warnings.insert(warnings.end(), of_water.begin(), of_water.end());
-    const std::vector<ice::Warning> of_start = warnings;
+    const std::vector<ice::Warning> of_start = look_at_start(world, o, saved.has_value());
+    std::vector<ice::Warning> warnings = of_start;
     warnings.insert(warnings.end(), course.begin(), course.end());
     // said now, while the case can be changed; at the end the summary has the verdict
     if (const auto few = ice::warn_of_short_averages(world)) warnings.push_back(*few);

@@ -83,6 +83,8 @@ void remove_part_files() noexcept {
 PartFile::PartFile(std::filesystem::path final_path)
     : final_(std::move(final_path)), part_(final_.string() + ".part") {
     std::error_code ignored;
+    if (std::filesystem::is_directory(final_, ignored))
+        throw run_failed(final_.string(), "is a folder", "give the name of a file");
     // a rename would replace a device such as /dev/null by a file
     if (std::filesystem::exists(final_, ignored) &&
         !std::filesystem::is_regular_file(final_, ignored))

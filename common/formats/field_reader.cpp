@@ -10,6 +10,7 @@
 #include "common/formats/field_arrays.hpp"
 #include "common/formats/field_file.hpp"
 #include "common/formats/hdf5_file.hpp"
+#include "common/formats/refuse_other_format.hpp"
 #include "common/formats/sealed_file.hpp"
 #include "common/formats/sphere_set_faults.hpp"
 
@@ -65,6 +66,7 @@ private:
     // Attributes of the whole field. A version that is not known is refused and not guessed: a
     // wrong guess would build floes of other sizes.
     void read_header(Field& field) const {
+        refuse_other_format(path_, file_, detail::kFieldFormat, "an ice field");
         check(file_.has_attribute("/", "format") &&
                   file_.read_text_attribute("/", "format") == detail::kFieldFormat,
               "/", "is not an ice field (no attribute format = \"icesolve-field\")");

@@ -7,6 +7,7 @@
 #include "common/base/error.hpp"
 #include "common/base/rehearse.hpp"
 #include "common/formats/hdf5_file.hpp"
+#include "common/formats/refuse_other_format.hpp"
 #include "common/formats/sealed_file.hpp"
 
 namespace ice {
@@ -37,6 +38,7 @@ public:
     }
 
     FlowTable read() const {
+        refuse_other_format(path_, file_, kFlowFormat, "a flow");
         check(file_.has_attribute("/", "format") &&
                   file_.read_text_attribute("/", "format") == kFlowFormat,
               "/", "is not a flow (no attribute format = \"icesolve-flow\")");

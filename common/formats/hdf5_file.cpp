@@ -2,7 +2,11 @@
 // The file, its groups and attributes; hdf5_datasets.cpp has the datasets.
 #include "common/formats/hdf5_file.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 
 #include "common/base/error.hpp"
 #include "common/formats/hdf5_handle.hpp"
@@ -50,6 +54,10 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
     if (mode == Mode::read) {
         if (!std::filesystem::exists(path))
             throw bad_input(path.string(), "file not found", "check the path");
+        // HDF5 says of both faults that it cannot open the file
+        if (::access(path.c_str(), R_OK) != 0)
+            throw bad_input(path.string(), std::string("cannot be read: ") + std::strerror(errno),
+                            "check its permissions");
         id_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
         if (id_ < 0)
             throw bad_input(path.string(), "is not an HDF5 file, or is truncated",

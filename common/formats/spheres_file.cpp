@@ -8,6 +8,7 @@
 #include "common/base/rehearse.hpp"
 #include "common/formats/flatten.hpp"
 #include "common/formats/hdf5_file.hpp"
+#include "common/formats/refuse_other_format.hpp"
 #include "common/formats/sealed_file.hpp"
 #include "common/formats/sphere_set_faults.hpp"
 
@@ -95,6 +96,7 @@ private:
     }
 
     void read_header(SphereSet& set) const {
+        refuse_other_format(path_, file_, kSpheresFormat, "a sphere set");
         check(file_.has_attribute("/", "format") &&
                   file_.read_text_attribute("/", "format") == kSpheresFormat,
               "/", "is not a sphere set (no attribute format = \"icesolve-spheres\")");

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace ice {
 
 Warning judged(std::string text, std::optional<double> share) {
@@ -10,6 +12,20 @@ Warning judged(std::string text, std::optional<double> share) {
     if (share) out.affects_mean = *share > kMatters;
     out.share = share;
     return out;
+}
+
+std::optional<double> affected_share(const std::vector<Warning>& warnings) {
+    double largest = 0.0;
+    bool unknown = false;
+    for (const Warning& w : warnings) {
+        if (!w.affects_mean.value_or(true)) continue;
+        if (w.affects_mean && w.share)
+            largest = std::max(largest, std::min(*w.share, 1.0));
+        else
+            unknown = true;
+    }
+    if (largest == 0.0 && unknown) return std::nullopt;
+    return largest;
 }
 
 std::string with_verdict(const Warning& w) {

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace ice {
 
@@ -25,6 +26,10 @@ constexpr double kMatters = 0.02;
 
 /// A warning whose share of the mean was measured, or is unknown; kMatters decides.
 Warning judged(std::string text, std::optional<double> share);
+
+/// The largest share of the mean [-] that warnings affect, 1 at most; 0: none affects it. None: a
+/// warning affects it, or may do so, and no share of any was measured.
+std::optional<double> affected_share(const std::vector<Warning>& warnings);
 
 /// The text with the verdict behind it, as a terminal or a report shows it.
 std::string with_verdict(const Warning& warning);

@@ -22,6 +22,9 @@ namespace {
 // the product of both lengths, and no real key has a third of this. A larger value takes longer on
 // files of noise, a smaller one suggests nothing for long keys.
 constexpr std::size_t kMostOfKey = 120;
+// Characters of an override that name it in a message [-]: most are shorter. Fewer cut usual ones,
+// more let a table of numbers hide the mistake behind it.
+constexpr std::size_t kMostOfOption = 60;
 // Repeated tables ([[floes]]). A case has a handful; more would be a generated file whose floes
 // belong in a field file. A higher bound costs memory and a slower start.
 constexpr std::size_t kMostTables = 10000;
@@ -29,14 +32,16 @@ constexpr std::size_t kMostTables = 10000;
 // A parsed text and the schema that its keys are held against. It walks the tree of tables once.
 class Document {
 public:
-    Document(const std::string& text, std::string name, const Schema& schema, Mistakes& mistakes)
-        : complaints_(text, name, mistakes),
+    // @param is_file  else an option
+    Document(const std::string& text, std::string name, const Schema& schema, Mistakes& mistakes,
+             bool is_file)
+        : complaints_(text, name, mistakes, is_file),
+          is_file_(is_file),
           name_(std::move(name)),
           schema_(schema),
           mistakes_(mistakes) {}
 
-    // `whole`: a file, not an override
-    Values read(const std::string& text, bool whole, std::size_t& groups) {
+    Values read(const std::string& text, std::size_t& groups) {
         toml::table root;
         try {
             root = toml::parse(text);
@@ -45,7 +50,7 @@ public:
             return {};
         }
         // One message for a file of another kind, in place of one for each of its keys.
-        if (whole && is_another_kind(root)) return {};
+        if (is_file_ && is_another_kind(root)) return {};
         Values values;
         walk(root, "", "", values, groups);
         return values;
@@ -208,20 +213,32 @@ private:
             return;
         }
         // where the key stands, for complaints that come after reading
-        mistakes_.places[label] =
-            fmt::format("{}:{}:{}", name_, name.source().begin.line, name.source().begin.column);
+        mistakes_.places[label] = complaints_.place(name.source());
+        const auto others = schema_.elsewhere.find(path);
+        const std::string elsewhere = others == schema_.elsewhere.end() ? "" : others->second;
         Value value;
-        if (read_value(*key, node, complaints_, value))
+        if (read_value(*key, node, elsewhere, complaints_, value))
             values[label] = value;
         else
             mistakes_.bad_keys.insert(label);
     }
 
     Complaints complaints_;
+    bool is_file_;
     std::string name_;
     const Schema& schema_;
     Mistakes& mistakes_;
 };
+
+// "--set hull.speed=1", of a long one its beginning: of several options it tells which.
+std::string name_of_override(const std::string& text) {
+    std::vector<std::string> words = printable_characters(text);
+    if (words.size() > kMostOfOption) {
+        words.resize(kMostOfOption);
+        words.emplace_back("...");
+    }
+    return fmt::format("--set {}", fmt::join(words, ""));
+}
 
 bool parses(const std::string& text) {
     try {
@@ -236,21 +253,21 @@ bool parses(const std::string& text) {
 
 Values read_toml(const std::string& text, const std::string& name, const Schema& schema,
                  Mistakes& mistakes, std::size_t& groups) {
-    return Document(text, name, schema, mistakes).read(text, true, groups);
+    return Document(text, name, schema, mistakes, true).read(text, groups);
 }
 
 Values read_override(const std::string& text, const Schema& schema, std::size_t groups,
                      Mistakes& mistakes) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
-        mistakes.add("--set " + text + ": error: write it as key=value");
+        mistakes.add(name_of_override(text) + ": error: write it as key=value");
         return {};
     }
     const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
     std::string line = key + " = " + value;
     // --set hull.spheres=a.h5 without the quotes that a shell takes away
     if (!parses(line)) line = key + " = \"" + value + "\"";
-    return Document(line, "--set", schema, mistakes).read(line, false, groups);
+    return Document(line, name_of_override(text), schema, mistakes, false).read(line, groups);
 }
 
 Value default_value(const Key& key, const Schema& schema) {
@@ -259,7 +276,7 @@ Value default_value(const Key& key, const Schema& schema) {
     Mistakes mistakes;
     std::size_t groups = 0;
     const std::string line = fmt::format("{} = {}", key.path, key.default_text);
-    const Values values = Document(line, "default", schema, mistakes).read(line, false, groups);
+    const Values values = Document(line, "default", schema, mistakes, false).read(line, groups);
     if (values.empty()) throw std::logic_error("bad default: " + line);
     return values.begin()->second;
 }

@@ -20,7 +20,8 @@ struct Mistakes {
     std::vector<std::string> texts;
     std::size_t more = 0;            ///< not kept
     std::set<std::string> bad_keys;  ///< keys given with a bad value: not missing as well
-    std::map<std::string, std::string> places;  ///< "file:line:column" of each key given
+    std::map<std::string, std::string> places;  ///< "file:line:column" of each key given, or
+                                                ///< "--set key=value"
     std::string remedy;                         ///< of the one mistake that explains all; else ""
 
     bool full() const { return texts.size() >= kMost; }
@@ -37,12 +38,13 @@ struct Mistakes {
 using Values = std::map<std::string, Value>;
 
 /// Parses TOML and checks it. Mistakes are collected, never thrown.
-/// @param name   of the text in messages: the file, or "--set"
+/// @param name   of the file, in messages
 /// @param groups  the number of repeated tables so far, increased by those of the text
 Values read_toml(const std::string& text, const std::string& name, const Schema& schema,
                  Mistakes& mistakes, std::size_t& groups);
 
-/// Parses one `key=value` override: the value as TOML, or as text where that fails.
+/// Parses one `key=value` override: the value as TOML, or as text where that fails. Its mistakes
+/// begin with "--set key=value".
 /// @param groups  repeated tables of the file; an override of another is a mistake
 Values read_override(const std::string& text, const Schema& schema, std::size_t groups,
                      Mistakes& mistakes);

@@ -22,7 +22,8 @@ constexpr std::size_t kMostWords = 360;
 // false; values are stored in SI.
 class ValueReader {
 public:
-    explicit ValueReader(Complaints& complaints) : complaints_(complaints) {}
+    ValueReader(Complaints& complaints, const std::string& elsewhere)
+        : complaints_(complaints), elsewhere_(elsewhere) {}
 
     bool read(const Key& key, const toml::node& node, Value& out) {
         // No default: a new kind without a reader is a compiler warning. A choice or vector is told
@@ -151,9 +152,11 @@ private:
         const bool chosen = key.kind == Kind::choice || key.kind == Kind::choice_or_vector;
         if (chosen && list.find("|" + *text + "|") == std::string::npos) {
             const std::string near = nearest_name(*text, choices_of(key));
+            const std::string hint =
+                !near.empty() ? fmt::format("did you mean \"{}\"?", near) : elsewhere_;
             complain(node.source(),
-                     fmt::format("{} = \"{}\" is none of {}{}", key.path, *text, key.choices,
-                                 near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)),
+                     fmt::format("{} = \"{}\" is none of {}{}{}", key.path, *text, key.choices,
+                                 hint.empty() ? "" : "; ", hint),
                      text->size() + 2);
             return false;
         }
@@ -255,12 +258,13 @@ private:
     }
 
     Complaints& complaints_;
+    const std::string& elsewhere_;
 };
 
 }  // namespace
 
-Complaints::Complaints(const std::string& text, std::string name, Mistakes& mistakes)
-    : name_(std::move(name)), mistakes_(mistakes) {
+Complaints::Complaints(const std::string& text, std::string name, Mistakes& mistakes, bool is_file)
+    : name_(std::move(name)), mistakes_(mistakes), is_file_(is_file) {
     std::istringstream in(text);
     for (std::string line; std::getline(in, line);) lines_.push_back(line);
 }
@@ -273,19 +277,23 @@ void Complaints::add(const toml::source_region& where, const std::string& what, 
         words.resize(kMostWords);
         words.emplace_back("...");
     }
-    std::string text =
-        fmt::format("{}:{}:{}: error: {}", name_, line, column, fmt::join(words, ""));
+    std::string text = fmt::format("{}: error: {}", place(where), fmt::join(words, ""));
     if (line >= 1 && line <= lines_.size())
         text += quote_line(lines_[line - 1], line, column > 0 ? column - 1 : 0, width);
     mistakes_.add(text);
+}
+
+std::string Complaints::place(const toml::source_region& where) const {
+    return is_file_ ? fmt::format("{}:{}:{}", name_, where.begin.line, where.begin.column) : name_;
 }
 
 std::string_view Complaints::line(std::size_t number) const {
     return number >= 1 && number <= lines_.size() ? std::string_view(lines_[number - 1]) : "";
 }
 
-bool read_value(const Key& key, const toml::node& node, Complaints& complaints, Value& out) {
-    return ValueReader(complaints).read(key, node, out);
+bool read_value(const Key& key, const toml::node& node, const std::string& elsewhere,
+                Complaints& complaints, Value& out) {
+    return ValueReader(complaints, elsewhere).read(key, node, out);
 }
 
 }  // namespace ice

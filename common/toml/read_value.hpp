@@ -17,23 +17,29 @@ namespace ice {
 /// Writes mistakes with the place and the line of the text they are in.
 class Complaints {
 public:
-    /// @param name  of the text in messages: the file, or "--set"
-    Complaints(const std::string& text, std::string name, Mistakes& mistakes);
+    /// @param name  of the text in messages: the file, or an option with its value
+    /// @param is_file  else the text is one line, and a place in it says nothing
+    Complaints(const std::string& text, std::string name, Mistakes& mistakes, bool is_file);
 
-    /// Adds "name:line:column: error: what" with the line and carets under `width` characters.
+    /// Adds "place: error: what" with the line and carets under `width` characters.
     void add(const toml::source_region& where, const std::string& what, std::size_t width);
+    /// "name:line:column", of an option its name.
+    std::string place(const toml::source_region& where) const;
     /// A line of the text, from 1; "" where there is none.
     std::string_view line(std::size_t number) const;
 
 private:
     std::string name_;
     Mistakes& mistakes_;
+    bool is_file_;
     std::vector<std::string> lines_;
 };
 
 /// Reads a node as the value of a key: type, unit, range, length. Of one that does not fit it
 /// complains and returns false.
+/// @param elsewhere  of a key with choices: who has others; "" nobody
 /// @param out  in SI; unchanged where false
-bool read_value(const Key& key, const toml::node& node, Complaints& complaints, Value& out);
+bool read_value(const Key& key, const toml::node& node, const std::string& elsewhere,
+                Complaints& complaints, Value& out);
 
 }  // namespace ice

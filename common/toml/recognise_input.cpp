@@ -46,6 +46,11 @@ constexpr std::array kFormats{
            "a case names it: [hull] or [[floes]], spheres = \"FILE\""},
     Format{"icesolve-field", "an ice field, made by icefield",
            "a case names it: [[floes]], pattern = \"file\", file = \"FILE\""},
+    Format{"icesolve-flow", "a flow around a hull, made by iceflow",
+           "a case names it: [flow], model = \"file\", file = \"FILE\""},
+    Format{"icesolve-result", "the result of a run", "icepost report shows the run's folder"},
+    Format{"icesolve-pieces", "the pieces of a run in level ice",
+           "icepost report shows the run's folder"},
     Format{"icesolve-checkpoint", "a checkpoint of a run",
            "icesolve CASE.cfg --restart FILE goes on from it"},
     Format{"", "an HDF5 file", "give a text file; icepost reads the run folder of a run.h5"},
@@ -84,6 +89,15 @@ std::optional<Recognised> recognise_file(const std::filesystem::path& file, std:
     // byte-order marks
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
         return Recognised{"text in UTF-16", "save it as UTF-8"};
+    return std::nullopt;
+}
+
+std::optional<Recognised> recognise_format(const std::filesystem::path& file,
+                                           std::string_view format) {
+    if (format.empty()) return std::nullopt;  // the last entry fits any file
+    for (const Format& known : kFormats)
+        if (known.name == format)
+            return Recognised{std::string(known.what), with_name(known.remedy, file)};
     return std::nullopt;
 }
 

@@ -20,6 +20,11 @@ struct Recognised {
 /// @return nothing for a file that may be the right one
 std::optional<Recognised> recognise_file(const std::filesystem::path& file, std::string_view text);
 
+/// A file by the format that it states in its attribute: "icesolve-field".
+/// @return nothing for a format that is none of the project's
+std::optional<Recognised> recognise_format(const std::filesystem::path& file,
+                                           std::string_view format);
+
 /// A TOML file of another kind than `wanted`, which has none of the wanted kind's own tables.
 /// @param file    for the remedy
 /// @param names   keys and tables at its top level

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -57,6 +59,8 @@ struct Schema {
     std::string title;           ///< "icesolve case"
     std::vector<std::vector<std::string>> one_of;  ///< keys of a table that exclude each other
     std::string in_its_place = {};  ///< a table that may replace repeated_table; "" none
+    /// Of keys with choices: who has others, for a value that is none of them and near none.
+    std::map<std::string, std::string, std::less<>> elsewhere = {};
 
     /// The key of that path, or null.
     const Key* find(std::string_view path) const;

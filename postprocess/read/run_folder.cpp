@@ -22,6 +22,21 @@ fs::path folder_of(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+bool holds_run(const fs::path& folder) {
+    return fs::exists(folder / "run.h5") || fs::exists(folder / "run.h5.part");
+}
+
+// A case, or another text, in place of a run folder. icesolve writes the run of a case to
+// results/NAME: the case's stem, or its folder's name where the stem is "case".
+[[noreturn]] void refuse_file(const fs::path& file) {
+    std::string name = file.stem().string();
+    if (name == "case")
+        name = fs::absolute(file).lexically_normal().parent_path().filename().string();
+    const fs::path run = fs::path("results") / name;
+    throw bad_input(file.string(), "is a file, not a run folder",
+                    holds_run(run) ? "its run is in " + run.string() : kRemedy);
+}
+
 // the remedy for a folder that is none of a run: the runs one level below
 std::string find_runs_in(const fs::path& folder) {
     std::vector<std::string> runs;
@@ -40,8 +55,10 @@ RunFolder read_run_folder(const fs::path& path) {
     RunFolder run;
     run.path = folder_of(path);
     const fs::path whole = run.path / "run.h5", part = run.path / "run.h5.part";
-    if (!fs::exists(whole) && !fs::exists(part))
+    if (!holds_run(run.path)) {
+        if (!fs::is_directory(path)) refuse_file(path);
         throw bad_input(run.path.string(), "holds no run.h5", find_runs_in(run.path));
+    }
     try {
         run.data = read_run(fs::exists(whole) ? whole : part);
     } catch (const Error&) {  // the run may just have ended
@@ -55,6 +72,7 @@ RunFolder read_run_folder(const fs::path& path) {
 
 fs::path find_summary(const fs::path& path) {
     if (!fs::exists(path)) throw bad_input(path.string(), "run folder not found", kRemedy);
+    if (path.extension() == ".cfg" || path.extension() == ".toml") refuse_file(path);
     fs::path file = fs::is_directory(path) ? path / "summary.json" : path;
     if (fs::exists(file)) return file;
     const fs::path folder = file.parent_path();

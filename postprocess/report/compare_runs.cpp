@@ -18,11 +18,11 @@ std::vector<std::string> columns_of(int dimension) {
     for (const char* force : {"mean", "ci95", "contact", "friction", "std", "max", "lindqvist"})
         names.push_back(std::string(force) + (dimension == 2 ? "_N_per_m" : "_N"));
     // beside forces the numbers by which a run is trusted
-    names.insert(names.end(), {"floes_moved", "unconverged_%", "hold", "status"});
+    names.insert(names.end(), {"floes_moved", "unconverged_%", "hold", "status", "affected_%"});
     return names;
 }
 
-// the columns' values between the first and the last two, which are texts
+// the columns' values between the first and the last three
 std::vector<double> numbers_of(const Summary& s) {
     // a run that ended before its first step has a share of 0, not a division by 0
     const double steps = std::max<double>(1.0, static_cast<double>(s.steps));
@@ -37,6 +37,11 @@ std::vector<double> numbers_of(const Summary& s) {
             100.0 * static_cast<double>(s.unconverged_steps) / steps};
 }
 
+// by how much warnings affect the mean [%]; NaN: not measured
+double affected_percent(const Summary& s) {
+    return 100.0 * affected_share(s.warnings).value_or(std::nan(""));
+}
+
 // four digits are more than any interval is worth
 std::string short_number(double value) {
     if (!std::isfinite(value)) return "-";
@@ -45,6 +50,11 @@ std::string short_number(double value) {
     // digits before the point, so that small and large numbers show about as many in all
     const int before = size < 1.0 ? 1 : static_cast<int>(std::floor(std::log10(size))) + 1;
     return fmt::format("{:.{}f}", value, std::clamp(4 - before, 0, 2));
+}
+
+// all digits; nothing where the value is unknown
+std::string csv_number(double value) {
+    return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
 std::string csv_text(const std::string& text) {
@@ -69,6 +79,7 @@ std::string one_table(const std::vector<NamedSummary>& runs, int dimension) {
         for (const double value : numbers_of(summary)) rows.back().push_back(short_number(value));
         rows.back().push_back(release_rule(summary.ice));
         rows.back().push_back(summary.status);
+        rows.back().push_back(short_number(affected_percent(summary)));
     }
     std::vector<std::size_t> width(columns.size(), 0);
     for (const auto& row : rows)
@@ -77,13 +88,10 @@ std::string one_table(const std::vector<NamedSummary>& runs, int dimension) {
     for (const auto& row : rows) {
         for (std::size_t k = 0; k < row.size(); ++k) {
             // texts begin in one column, numbers end in one
-            const bool text = k == 0 || k + 2 >= row.size();
+            const bool text = k == 0 || columns[k] == "hold" || columns[k] == "status";
             if (k > 0) out += "  ";
-            if (k + 1 == row.size())
-                out += row[k];
-            else
-                out += text ? fmt::format("{:<{}}", row[k], width[k])
-                            : fmt::format("{:>{}}", row[k], width[k]);
+            out += text ? fmt::format("{:<{}}", row[k], width[k])
+                        : fmt::format("{:>{}}", row[k], width[k]);
         }
         out += '\n';
     }
@@ -108,9 +116,9 @@ std::string compare_csv(const std::vector<NamedSummary>& runs) {
     std::string out = fmt::format("{}\n", fmt::join(columns_of(flat.empty() ? 3 : 2), ","));
     for (const auto& [name, summary] : runs) {
         out += csv_text(name);
-        for (const double value : numbers_of(summary))
-            out += "," + (std::isfinite(value) ? fmt::format("{}", value) : std::string());
-        out += "," + csv_text(release_rule(summary.ice)) + "," + summary.status + "\n";
+        for (const double value : numbers_of(summary)) out += "," + csv_number(value);
+        out += "," + csv_text(release_rule(summary.ice)) + "," + summary.status + "," +
+               csv_number(affected_percent(summary)) + "\n";
     }
     return out;
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "common/base/error.hpp"
+#include "common/formulas/formula_band.hpp"
 
 namespace ice::sensitivity {
 
@@ -51,6 +52,7 @@ void add_run(const toml::table& entry, Study& study) {
     values->resistance.push_back(run->summary->resistance.mean);
     values->half.push_back(run->summary->resistance.ci95);
     study.dimension = run->summary->dimension;
+    if (input.empty()) study.level_ice = is_level_ice(run->summary->ice);
 }
 
 }  // namespace

@@ -39,8 +39,9 @@ struct Input {
 /// All runs of a study, by input and value.
 struct Study {
     std::string title;
-    int dimension = 3;  ///< 2 or 3
-    Seeds base;         ///< the case itself
+    int dimension = 3;       ///< 2 or 3
+    bool level_ice = false;  ///< the ship of the case breaks it
+    Seeds base;              ///< the case itself
     std::vector<Input> inputs;
     std::vector<std::pair<std::string, std::string>> left_out;  ///< input, why
     sweep::Sweep runs;                                          ///< all of them, for their faults

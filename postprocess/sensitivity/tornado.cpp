@@ -28,6 +28,7 @@ constexpr double kTop = 66.0, kBar = 20.0, kBetween = 12.0, kFoot = 76.0;
 constexpr double kLetter = 7.2;
 constexpr const char* kSmall = "font-size=\"11.5\" fill=\"#555\"";
 constexpr const char* kModelColor = "#e4e7ea";
+constexpr const char* kLargestColor = "#f1f3f5";
 constexpr const char* kIntervalColor = "#b9d6ea";
 
 std::string rectangle(double x1, double x2, double top, double bottom, const std::string& more) {
@@ -43,10 +44,11 @@ double row_height(const RankedInput& input) {
 class Tornado {
 public:
     Tornado(const std::vector<RankedInput>& inputs, const Estimate& base,
-            const report::ForceUnit& unit)
+            const report::ForceUnit& unit, const ModelError& model)
         : inputs_(inputs),
           base_(base),
           unit_(unit),
+          model_(model),
           half_(std::isfinite(base.half) ? base.half : 0) {
         // the rows decide the picture's height
         bottom_ = kTop;
@@ -58,7 +60,9 @@ public:
         std::string out =
             views::svg_open(kWidth, bottom_ + kFoot, "Inputs that move the resistance");
         // SVG paints in order: bands, axes, bars, and the line of the mean over all
-        out += band(base_.mean * kModelUncertainty, kModelColor) + band(half_, kIntervalColor);
+        if (model_.largest > model_.least)
+            out += band(std::abs(base_.mean) * model_.largest, kLargestColor);
+        out += band(std::abs(base_.mean) * model_.least, kModelColor) + band(half_, kIntervalColor);
         out += axes();
         double top = kTop;
         for (const RankedInput& input : inputs_) {
@@ -73,7 +77,7 @@ public:
 private:
     // all bars, intervals as long as the bars at most, both bands, and room for the labels
     void choose_range() {
-        const double model = std::abs(base_.mean) * kModelUncertainty;
+        const double model = std::abs(base_.mean) * model_.largest;
         double low = base_.mean - model, high = base_.mean + model;
         const auto each = [&](const auto& use) {
             for (const RankedInput& input : inputs_)
@@ -191,8 +195,10 @@ private:
         out += text_element(kLeft, 38.0, "one input at a time, against the case", "start", kSmall);
         return out + entry(8.0, kIntervalColor, 1.0, "the case's own interval, 95 %") +
                entry(214.0, kModelColor, 1.0,
-                     fmt::format("model uncertainty, \u00b1{:g} %, stated",
-                                 100 * kModelUncertainty)) +
+                     model_.measured ? fmt::format("error in model tests, {:.0f} to {:.0f} %",
+                                                   100.0 * model_.least, 100.0 * model_.largest)
+                                     : fmt::format("model uncertainty, \u00b1{:g} %, stated",
+                                                   100.0 * model_.least)) +
                entry(452.0, views::kOrange, 1.0, "more") + entry(522.0, views::kBlue, 1.0, "less") +
                entry(584.0, "#777777", 0.35, "pale: within the 95 % interval of no change");
     }
@@ -200,6 +206,7 @@ private:
     const std::vector<RankedInput>& inputs_;
     Estimate base_;
     const report::ForceUnit& unit_;
+    ModelError model_;
     double half_, bottom_ = 0.0;
     views::Axis x_;
 };
@@ -207,8 +214,8 @@ private:
 }  // namespace
 
 std::string draw_tornado(const std::vector<RankedInput>& inputs, const Estimate& base,
-                         const report::ForceUnit& unit) {
-    return Tornado(inputs, base, unit).draw();
+                         const report::ForceUnit& unit, const ModelError& model) {
+    return Tornado(inputs, base, unit, model).draw();
 }
 
 }  // namespace ice::sensitivity

@@ -23,11 +23,17 @@ namespace {
 // all a study's texts and charts need
 struct Result {
     explicit Result(const Study& study)
-        : inputs(rank_inputs(study)), base(estimate_ensemble(study.base)), unit(choose(study)) {}
+        : inputs(rank_inputs(study)),
+          base(estimate_ensemble(study.base)),
+          unit(choose(study)),
+          // the uncertainty of broken ice does not apply in level ice, where the error is known
+          model(study.level_ice ? ModelError{kLeastLevelIceError, kLargestLevelIceError, true}
+                                : ModelError{kModelUncertainty, kModelUncertainty, false}) {}
 
     std::vector<RankedInput> inputs;
     Estimate base;
     ForceUnit unit;
+    ModelError model;
 
     // Signed: a share says in which direction the input moves the resistance.
     std::string percent(double force) const {
@@ -37,6 +43,8 @@ struct Result {
                    : "n/a";
     }
     std::string with_interval(const Estimate& e) const { return sweep::with_interval(unit, e); }
+    // Of the base's mean, in the unit.
+    std::string share_of_mean(double share) const { return unit.text(share * std::abs(base.mean)); }
 
 private:
     ForceUnit choose(const Study& study) const {
@@ -57,9 +65,26 @@ std::string sentence_on_seeds(const Study& study) {
     return n == 1 ? "one run, its own interval" : fmt::format("{} seeds", n);
 }
 
-std::string model_words() {
-    return fmt::format("\u00b1 {:g} % stated model uncertainty, on top of it",
-                       100.0 * kModelUncertainty);
+std::string model_words(const ModelError& model) {
+    if (model.measured)
+        return fmt::format(
+            "{:.0f} to {:.0f} % mean error against model tests in level ice, on top "
+            "of it",
+            100.0 * model.least, 100.0 * model.largest);
+    return fmt::format("\u00b1 {:g} % stated model uncertainty, on top of it", 100.0 * model.least);
+}
+
+std::string model_force(const Result& r) {
+    return r.model.measured ? r.share_of_mean(r.model.least) + " to " +
+                                  r.share_of_mean(r.model.largest) + " " + r.unit.name
+                            : "\u00b1 " + r.share_of_mean(r.model.least) + " " + r.unit.name;
+}
+
+// Says of the chart's grey bands where they come from.
+std::string band_words(const ModelError& model) {
+    return model.measured ? "those are the grey bands, the least and the largest mean error "
+                            "against model tests (docs/validation-measured.md), and the bars."
+                          : "that is the grey band, stated and not computed, and the bars.";
 }
 
 // widths in characters, not bytes: all but ASCII here is two bytes wide
@@ -113,9 +138,7 @@ std::string cards(const Study& study, const Result& r) {
     std::string out = "<div class=\"cards\">\n";
     out += card(r.with_interval(r.base) + " " + r.unit.name,
                 "the case, 95 %, " + sentence_on_seeds(study));
-    out +=
-        card("\u00b1 " + r.unit.text(kModelUncertainty * std::abs(r.base.mean)) + " " + r.unit.name,
-             model_words());
+    out += card(model_force(r), model_words(r.model));
     // inputs are in order of their effect, so the first has the largest
     if (!r.inputs.empty() && r.inputs.front().largest() > 0.0)
         out += card("\u00b1 " + r.unit.text(r.inputs.front().largest()) + " " + r.unit.name,
@@ -147,15 +170,14 @@ std::string table_of_sources(const Study& study, const Result& r) {
 
 std::string make_tornado(const Study& study) {
     const Result r(study);
-    return draw_tornado(r.inputs, r.base, r.unit);
+    return draw_tornado(r.inputs, r.base, r.unit, r.model);
 }
 
 std::string study_text(const Study& study) {
     const Result r(study);
     std::string out = study.title + "\n";
-    out += fmt::format("  {} {} (95 %, {}); {}: \u00b1 {} {}\n\n", r.with_interval(r.base),
-                       r.unit.name, sentence_on_seeds(study), model_words(),
-                       r.unit.text(kModelUncertainty * std::abs(r.base.mean)), r.unit.name);
+    out += fmt::format("  {} {} (95 %, {}); {}: {}\n\n", r.with_interval(r.base), r.unit.name,
+                       sentence_on_seeds(study), model_words(r.model), model_force(r));
     // the same rows as the page's, with the star in a column of its own
     std::vector<std::vector<std::string>> rows{heads(r)};
     for (const RankedInput& input : r.inputs)
@@ -187,10 +209,9 @@ std::string make_study_page(const Study& study) {
         "Whiskers: Welch's 95 % interval of the difference from the case, over the seeds; pale "
         "bars "
         "may be no change at all. The interval of the case says how well the mean is known, not "
-        "whether the model or the inputs are right: that is the grey band, stated and not "
-        "computed, "
-        "and the bars.",
-        "<div class=\"opening\">" + draw_tornado(r.inputs, r.base, r.unit) + "</div>\n");
+        "whether the model or the inputs are right: " +
+            band_words(r.model),
+        "<div class=\"opening\">" + draw_tornado(r.inputs, r.base, r.unit, r.model) + "</div>\n");
     out += report::section("changes", "All values",
                            "* the 95 % interval of the difference leaves out zero.",
                            table_of_changes(r));

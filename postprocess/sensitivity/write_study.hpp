@@ -10,7 +10,7 @@ namespace ice::sensitivity {
 /// The tornado chart as an SVG file's text.
 std::string make_tornado(const Study& study);
 
-/// Text for a terminal: the case's resistance with its interval, the model uncertainty beside it,
+/// Text for a terminal: the case's resistance with its interval, the model's error beside it,
 /// a line per value with the difference, its 95 % interval and its share of the resistance,
 /// "*" where the interval leaves out zero; then inputs that were left out, with reasons.
 std::string study_text(const Study& study);

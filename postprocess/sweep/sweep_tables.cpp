@@ -45,20 +45,6 @@ std::string head(const std::vector<std::string>& names) {
 
 std::string cell(const std::string& text) { return "<td>" + escape(text) + "</td>"; }
 
-// a link to the run's report, or to its folder where it has none
-std::string link(const SweepRun& run, const std::string& text, const std::filesystem::path& page) {
-    namespace fs = std::filesystem;
-    const fs::path report = run.folder / "report.html";
-    const fs::path target = fs::exists(report) ? report : run.folder;
-    // a run that never began has no folder
-    if (!fs::exists(target)) return escape(text);
-    std::error_code error;
-    // relative to the page, so that a folder may be moved as a whole
-    const fs::path from = fs::absolute(page).parent_path();
-    const std::string address = fs::absolute(target).lexically_relative(from).generic_string();
-    return "<a href=\"" + encode_address(address) + "\">" + escape(text) + "</a>";
-}
-
 std::string csv_text(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string out = "\"";
@@ -98,7 +84,36 @@ std::string csv_number(double value) {
     return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
+// by how much warnings affect a mean [%]; NaN: not measured
+double affected_percent(const std::vector<Warning>& warnings) {
+    return 100.0 * affected_share(warnings).value_or(std::nan(""));
+}
+
+// of all runs of a point
+std::vector<Warning> warnings_of(const Sweep& sweep, const Point& point) {
+    std::vector<Warning> out;
+    for (const std::size_t row : point.runs) {
+        const auto& warnings = sweep.runs[row].summary->warnings;
+        out.insert(out.end(), warnings.begin(), warnings.end());
+    }
+    return out;
+}
+
 }  // namespace
+
+std::string link_to_run(const SweepRun& run, const std::string& text,
+                        const std::filesystem::path& page) {
+    namespace fs = std::filesystem;
+    const fs::path report = run.folder / "report.html";
+    const fs::path target = fs::exists(report) ? report : run.folder;
+    // a run that never began has no folder
+    if (!fs::exists(target)) return escape(text);
+    std::error_code error;
+    // relative to the page, so that a folder may be moved as a whole
+    const fs::path from = fs::absolute(page).parent_path();
+    const std::string address = fs::absolute(target).lexically_relative(from).generic_string();
+    return "<a href=\"" + encode_address(address) + "\">" + escape(text) + "</a>";
+}
 
 std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
                         const report::ForceUnit& unit, const std::filesystem::path& page) {
@@ -113,7 +128,8 @@ std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
         out += "<tr>" + cells(axes, row) + "<td>";
         // one link per run, numbered as in the row
         for (std::size_t k = 0; k < runs.size(); ++k)
-            out += (k > 0 ? " " : "") + link(sweep.runs[runs[k]], std::to_string(k + 1), page);
+            out +=
+                (k > 0 ? " " : "") + link_to_run(sweep.runs[runs[k]], std::to_string(k + 1), page);
         out += "</td>" + cells(forces, row) + "</tr>\n";
     }
     return out + "</tbody></table></div>\n";
@@ -135,19 +151,21 @@ std::string work_table(const Sweep& sweep, const std::vector<Point>& points,
 
 std::string run_table(const Sweep& sweep, const report::ForceUnit& unit,
                       const std::filesystem::path& page) {
-    std::string out = head({"Run", "Status", "Resistance \u00b1 95 % [" + unit.name + "]",
-                            "Friction [" + unit.name + "]", "Largest [" + unit.name + "]",
-                            "Unconverged steps", "Warnings", "Wall time [s]"});
+    std::string out =
+        head({"Run", "Status", "Resistance \u00b1 95 % [" + unit.name + "]",
+              "Friction [" + unit.name + "]", "Largest [" + unit.name + "]", "Unconverged steps",
+              "Warnings", "Wall time [s]", "Mean affected by [%]"});
     for (const SweepRun& run : sweep.runs) {
-        out += "<tr><td>" + link(run, run.name, page) + "</td><td><span class=\"status" +
+        out += "<tr><td>" + link_to_run(run, run.name, page) + "</td><td><span class=\"status" +
                (run.summary ? "" : " bad") + "\">" + escape(run.status) + "</span></td>";
         if (const auto& s = run.summary)
             out += cell(with_interval(unit, {s->resistance.mean, s->resistance.ci95})) +
                    cell(unit.text(s->resistance.friction_mean)) +
                    cell(unit.text(s->resistance.max)) + cell(std::to_string(s->unconverged_steps)) +
-                   cell(std::to_string(s->warnings.size())) + cell(readable(s->wall_s));
+                   cell(std::to_string(s->warnings.size())) + cell(readable(s->wall_s)) +
+                   cell(readable(affected_percent(s->warnings)));
         else
-            out += "<td colspan=\"6\" class=\"text\">" + escape(run.fault) + "</td>";
+            out += "<td colspan=\"7\" class=\"text\">" + escape(run.fault) + "</td>";
         out += "</tr>\n";
     }
     return out + "</tbody></table></div>\n";
@@ -165,7 +183,7 @@ std::string point_csv(const Sweep& sweep, const std::vector<Point>& points) {
     const auto formulas = formula_columns(points);
     for (const FormulaValue& f : formulas)
         out += "," + csv_text(column_name(f.name + " " + f.part) + in);
-    out += ",hold\r\n";
+    out += ",hold,affected_%\r\n";
     for (const Point& point : points) {
         for (const std::string& axis : sweep.axes) out += csv_text(point.at.at(axis).text) + ",";
         out += std::to_string(point.runs.size());
@@ -175,7 +193,8 @@ std::string point_csv(const Sweep& sweep, const std::vector<Point>& points) {
         out += "," + csv_number(point.largest) + "," + csv_number(point.lindqvist);
         for (const FormulaValue& f : formulas)
             out += "," + csv_number(point.formula(f.name, f.part));
-        out += "," + csv_text(point.hold) + "\r\n";
+        out += "," + csv_text(point.hold) + "," +
+               csv_number(affected_percent(warnings_of(sweep, point))) + "\r\n";
     }
     return out;
 }
@@ -185,7 +204,7 @@ std::string run_csv(const Sweep& sweep) {
     for (const std::string& axis : sweep.axes) out += "," + csv_text(axis);
     out += fmt::format(
         ",{0},resistance{1},ci95{1},contact{1},friction{1},largest{1},lindqvist_submersion{1},"
-        "unconverged_steps,wall_s,hold,remark\r\n",
+        "unconverged_steps,wall_s,hold,remark,affected_%\r\n",
         kSeedKey, force_ending(dimension_of(sweep)));
     for (const SweepRun& run : sweep.runs) {
         // The row of a failed run has its settings, so that a script can run it again.
@@ -202,7 +221,8 @@ std::string run_csv(const Sweep& sweep) {
         else
             // as many commas as the numbers above have
             out += ",,,,,,,,,";
-        out += "," + csv_text(run.fault) + "\r\n";
+        out += "," + csv_text(run.fault) + "," +
+               (run.summary ? csv_number(affected_percent(run.summary->warnings)) : "") + "\r\n";
     }
     return out;
 }

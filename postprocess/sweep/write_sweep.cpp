@@ -9,6 +9,7 @@
 
 #include "postprocess/report/formula_section.hpp"
 #include "postprocess/report/page.hpp"
+#include "postprocess/sweep/affected_runs.hpp"
 #include "postprocess/sweep/formula_curves.hpp"
 #include "postprocess/sweep/key_names.hpp"
 #include "postprocess/sweep/split_sweep.hpp"
@@ -41,13 +42,15 @@ std::size_t count_completed(const Sweep& sweep) {
 std::string header(const Sweep& sweep, const std::vector<Sweep>& parts) {
     // The share of completed runs comes first: a curve of half a sweep looks like a whole one.
     const std::size_t good = count_completed(sweep), all = sweep.runs.size();
+    std::string affected = affected_line(sweep);
+    if (!affected.empty()) affected = "<p><a href=\"#affected\">" + escape(affected) + "</a></p>\n";
     std::set<std::string> axes;
     for (const Sweep& part : parts)
         for (const std::string& axis : part.axes) axes.insert(axis_title(axis));
     return "<header><div class=\"inner\">\n<h1>" + escape(sweep.title) +
            "</h1>\n<span class=\"status" + (good == all ? "" : " bad") + "\">" +
-           fmt::format("{} of {} runs completed", good, all) +
-           "</span>\n<p>Ice resistance of a ship, simulated: " +
+           fmt::format("{} of {} runs completed", good, all) + "</span>\n" + affected +
+           "<p>Ice resistance of a ship, simulated: " +
            escape(axes.empty() ? "nothing but the seed varies"
                                : fmt::format("over {}", fmt::join(axes, ", "))) +
            ".</p>\n</div></header>\n";
@@ -226,8 +229,8 @@ std::string make_sweep_curve(const Sweep& sweep) {
 
 std::string make_sweep_page(const Sweep& sweep, const std::filesystem::path& page) {
     const auto parts = split_sweep(sweep);
-    std::string out =
-        report::open_page(sweep.title) + header(sweep, parts) + "<main>\n" + fault_list(sweep);
+    std::string out = report::open_page(sweep.title) + header(sweep, parts) + "<main>\n" +
+                      fault_list(sweep) + affected_section(sweep, page);
     if (parts.size() > 1)
         out +=
             "<p class=\"note\">Runs in 3D and in 2D: forces in newtons and in newtons per metre of "

@@ -92,8 +92,8 @@ private:
         }
         const double metres = frame_.metres * length;
         if (metres < kShortest || metres > kLongest)
-            warn(fmt::format(
-                "the solid is {:.3g} m long: if that is wrong, give --units or --scale", metres));
+            warn(fmt::format("the solid is {:.3g} m long: if that is wrong, {} --units or --scale",
+                             metres, options_.scale ? "correct" : "give"));
     }
 
     std::string file_said() const {

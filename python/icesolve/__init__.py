@@ -17,11 +17,11 @@ PATH, else those built in this checkout.
 from .cases import CaseError, write_case
 from .plots import plot_floes, plot_history, plot_resistance
 from .programs import ProgramError, make_field, run, spherize
-from .runs import Estimate, Run, open_run
+from .runs import Estimate, Run, RunWarning, open_run
 from .scene import Scene
 from .sweeps import open_sweep
 
 __all__ = [
-    "CaseError", "Estimate", "ProgramError", "Run", "Scene", "make_field", "open_run", "open_sweep",
-    "plot_floes", "plot_history", "plot_resistance", "run", "spherize", "write_case",
+    "CaseError", "Estimate", "ProgramError", "Run", "RunWarning", "Scene", "make_field", "open_run",
+    "open_sweep", "plot_floes", "plot_history", "plot_resistance", "run", "spherize", "write_case",
 ]

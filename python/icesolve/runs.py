@@ -25,6 +25,42 @@ class Estimate:
         return f"{self.mean:.6g} +- {self.ci95:.2g} {self.unit}"
 
 
+class RunWarning(str):
+    """The text of a warning, and its verdict on the mean resistance.
+
+    `affects_mean`: True or False; None: nothing was measured. `share`: of the mean, at most about
+    so much [-]; None: not measured.
+    """
+
+    affects_mean: bool | None
+    share: float | None
+
+    def __new__(cls, text: str, affects_mean: bool | None = None, share: float | None = None):
+        warning = super().__new__(cls, text)
+        warning.affects_mean = affects_mean
+        warning.share = share
+        return warning
+
+
+def read_warnings(summary: dict) -> list[RunWarning]:
+    """The warnings of a summary.json; those of older programs are texts without a verdict."""
+    return [RunWarning(w["text"], w.get("affects_mean"), w.get("share")) if isinstance(w, dict)
+            else RunWarning(w) for w in summary["warnings"]]
+
+
+def affected_percent(warnings: list[RunWarning]) -> float:
+    """The largest share of the mean that warnings affect [%], 100 at most; 0: none affects it.
+
+    nan: a warning affects it, or may do so, and no share of any was measured. The same number is
+    the column `affected_%` of `icepost table`.
+    """
+    affecting = [w for w in warnings if w.affects_mean is not False]
+    shares = [min(w.share, 1.0) for w in affecting if w.affects_mean and w.share is not None]
+    if shares:
+        return 100.0 * max(shares)
+    return float("nan") if affecting else 0.0
+
+
 class Run:
     """A run folder. Datasets are read at their first use.
 
@@ -47,9 +83,9 @@ class Run:
         return "N/m" if self.summary["dimension"] == 2 else "N"
 
     @property
-    def warnings(self) -> list[str]:
-        """Texts of the run's warnings."""
-        return [w["text"] if isinstance(w, dict) else w for w in self.summary["warnings"]]
+    def warnings(self) -> list[RunWarning]:
+        """The run's warnings: texts with `affects_mean` and `share`."""
+        return read_warnings(self.summary)
 
     @property
     def resistance(self) -> Estimate:

@@ -315,6 +315,8 @@ const Schema& case_schema() {
             {},         "floes", "icesolve", "icesolve case", {{"hull.speed", "hull.speed_table"}},
             "level_ice"};
         for (const CaseKey& key : case_keys()) out.keys.push_back(key);
+        out.elsewhere["floes.pattern"] =
+            "icefield makes others: pattern = \"file\", file = \"field.h5\"";
         return out;
     }();
     return schema;

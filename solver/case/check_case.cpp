@@ -60,7 +60,7 @@ void check_bending(const Case& checked, std::size_t groups, const Complaints& co
         if (checked.contact.is_rigid())
             wrong(
                 "needs a finite contact.crushing_pressure: the force of the ship on rigid ice "
-                "that is held has no value");
+                "that is held has no value; 1 MPa is the default in 3D");
         if (checked.gravity == 0.0)
             wrong("needs environment.gravity above 0: water without weight bears no ice");
         if (checked.dimension == 2 && checked.bending.model == BendingModel::kashtelyan)

@@ -260,14 +260,19 @@ private:
     Case case_;
 };
 
-// "floes.gap" of an override goes to every group
-void spread_to_groups(Values& values, std::size_t groups) {
+// "floes.gap" of an override goes to every group, with its place for complaints
+void spread_to_groups(Values& values, std::size_t groups, Mistakes& mistakes) {
     for (const CaseKey& key : case_keys()) {
-        const auto found = values.find(std::string(key.path));
-        if (!key.path.starts_with("floes.") || found == values.end()) continue;
-        for (std::size_t g = 0; g < groups; ++g)
-            values[fmt::format("floes.{}.{}", g, key.path.substr(sizeof("floes.") - 1))] =
-                found->second;
+        const std::string path(key.path);
+        const auto found = values.find(path);
+        if (!path.starts_with("floes.") || found == values.end()) continue;
+        const std::string place = mistakes.places.at(path);
+        for (std::size_t g = 0; g < groups; ++g) {
+            const std::string label =
+                fmt::format("floes.{}.{}", g, path.substr(sizeof("floes.") - 1));
+            values[label] = found->second;
+            mistakes.places[label] = place;
+        }
         values.erase(found);
     }
 }
@@ -291,7 +296,7 @@ Case read_once(const std::filesystem::path& file, const std::vector<std::string>
     const bool unreadable = !mistakes.texts.empty() && values.empty();
     for (const std::string& text : overrides) {
         Values given = read_override(text, case_schema(), groups, mistakes);
-        spread_to_groups(given, groups);
+        spread_to_groups(given, groups, mistakes);
         // a speed replaces a table and the other way round
         if (given.contains("hull.speed")) values.erase("hull.speed_table");
         if (given.contains("hull.speed_table")) values.erase("hull.speed");

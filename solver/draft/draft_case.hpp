@@ -17,19 +17,24 @@ struct Draft {
     double length = 0.0;                         ///< of the waterline
     double lengths = 0.0;                        ///< travelled, in lengths of the waterline [-]
     double averaged_lengths = 0.0;               ///< of them averaged [-]
+    double settled_lengths = 0.0;                ///< of them in ice before the averages [-]
     double clearance = 0.0;                      ///< between the bow and the first ice
     double thickness = 0.0;                      ///< of the first floe
     double ice_from = 0.0, ice_to = 0.0;         ///< along x, of a sheet in the field's place
     double ice_starboard = 0.0, ice_port = 0.0;  ///< along y
 };
 
+/// Length of a field that has room for a drafted case's travel, in ship's lengths [-].
+inline constexpr double kFieldLengths = 2.5;
+
 /// Computes a case from its sphere sets.
 ///
 /// - Draught: down to the keel from z = 0 where the mesh crosses it, else 0.6 of its depth.
 /// - Place: on the field's centre line, the bow two sphere spacings before the first ice.
 /// - Speed: 4 kn at 100 m, by Froude's rule, to two digits.
-/// - Travel: 1.5 lengths of the waterline, or the length of the field; averages over the last
-///   length of it, or its last two thirds.
+/// - Travel: 2.2 lengths of the waterline in the ice, or the length of the field. Averages begin
+///   after the first length in the ice; in a shorter field they are those of the last length, or of
+///   the last two thirds.
 /// - Time step: in it the ship goes a fifth of the smallest sphere's radius, rounded down to 1, 2
 ///   or 5 of a decade.
 /// @throws Error (exit code 2) for a field that is too short to be entered, and what building a
@@ -41,7 +46,8 @@ Draft draft_case(const std::filesystem::path& hull, const std::filesystem::path&
 std::string draft_text(const Draft& draft, const std::string& hull, const std::string& field);
 
 /// Specification of a field for a ship where the user has none: floes of a twelfth of its length in
-/// a channel three times as broad as it, 80 % cover, a hundredth of the length thick.
+/// a channel kFieldLengths times as long and three times as broad as it, 80 % cover, a hundredth
+/// of the length thick.
 /// @param length, breadth  of the ship [m]
 std::string draft_field(double length, double breadth);
 

@@ -71,8 +71,8 @@ std::string draft_text(const Draft& d, const std::string& hull, const std::strin
     out += line("crushing_pressure = \"1 MPa\"", "CHECK: 0.5 to 3 MPa");
     out += "\n[output]\n";
     out += line(fmt::format("average_from = {:g}", d.average_from),
-                fmt::format("s: forces are averaged over the last {:.2f} ship lengths",
-                            d.averaged_lengths));
+                fmt::format("s: {:.2f} ship lengths in the ice; averages over the last {:.2f}",
+                            d.settled_lengths, d.averaged_lengths));
     // 200 frames, but no more than steps
     out += line(fmt::format("frames_every = {:.1g}", std::max(d.time_step, d.duration / 200.0)),
                 "s between stored poses");
@@ -81,7 +81,7 @@ std::string draft_text(const Draft& d, const std::string& hull, const std::strin
 
 std::string draft_field(double length, double breadth) {
     // In ship lengths L and breadths B: ice of L / 100, spheres of a quarter of the thickness,
-    // an area of 2 L by 3 B, floes of L / 12.
+    // an area of 2.5 L by 3 B, floes of L / 12.
     return fmt::format(
         "#:schema specification.schema.json\n"
         "# for editors, made by: icefield --print-schema > specification.schema.json\n"
@@ -93,7 +93,7 @@ std::string draft_field(double length, double breadth) {
         "[area]\nsize = [{:.3g}, {:.3g}]\n"
         "[floes]\nconcentration = 0.8\nmean_size = {:.2g}\n"
         "[edges]\nbreadth = {:.2g}\npiece = {:.2g}\noverhang = [{:.3g}, 0]\n",
-        length, breadth, 0.01 * length, 0.0025 * length, 0.0075 * length, 2.0 * length,
+        length, breadth, 0.01 * length, 0.0025 * length, 0.0075 * length, kFieldLengths * length,
         3.0 * breadth, length / 12.0, 0.1 * length, 0.3 * length, length);
 }
 

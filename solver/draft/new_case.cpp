@@ -12,6 +12,7 @@
 #include "common/cli/sibling_program.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "common/formats/summary_file.hpp"
+#include "common/toml/recognise_input.hpp"
 #include "solver/draft/draft_case.hpp"
 
 namespace ice {
@@ -34,6 +35,18 @@ void refuse_existing(const fs::path& file, const std::string& remedy) {
 void require_file(const fs::path& file, const std::string& what) {
     if (!fs::is_regular_file(file))
         throw bad_input(file.string(), what + " not found", "check the path");
+}
+
+// A specification in the hull's place, or a mesh in the field's.
+void refuse_swapped(const NewCase& wish) {
+    const bool hull = wish.hull.extension() == ".toml";
+    const bool field = !wish.field.empty() && recognise_file(wish.field, "");
+    if (!hull && !field) return;
+    const fs::path& wrong = hull ? wish.hull : wish.field;
+    throw bad_input(wrong.string(),
+                    hull ? "is a text, no hull: the hull comes first, then the field"
+                         : "is a mesh, no field: the hull comes first, then the field",
+                    "icesolve --new HULL [FIELD]");
 }
 
 void require_program(const std::string& name) {
@@ -98,11 +111,23 @@ std::string seen_from(const fs::path& folder, const fs::path& file) {
     return fs::absolute(file).lexically_normal().lexically_relative(folder).string();
 }
 
+// A mean over less than a ship length has not seen the ship's whole side pass. Before one length in
+// the ice floes do not lie along all of it, and the resistance still rises. A little less than one:
+// the field's ends are not used to the last metre.
+void warn_of_short_field(const Draft& draft) {
+    if (draft.averaged_lengths >= 0.95 && draft.settled_lengths >= 0.95) return;
+    say_warning(fmt::format(
+        "the field is short: forces are averaged over {:.2f} ship lengths, from {:.2f} in the ice "
+        "on; area.size of {:.3g} m along x makes both one or more",
+        draft.averaged_lengths, draft.settled_lengths, kFieldLengths * draft.length));
+}
+
 }  // namespace
 
 fs::path write_new_case(const NewCase& wish) {
     require_file(wish.hull, "hull");
     if (!wish.field.empty()) require_file(wish.field, "field");
+    refuse_swapped(wish);
     const bool is_set = wish.hull.extension() == ".h5";
     if (is_set && !wish.mesh_options.empty())
         throw bad_input(wish.mesh_options[0],
@@ -124,13 +149,7 @@ fs::path write_new_case(const NewCase& wish) {
     if (field.extension() == ".toml") field = make_field_file(field, folder);
     const Draft draft = draft_case(hull, field);
     write_text_file(out, draft_text(draft, seen_from(folder, hull), seen_from(folder, field)));
-    // a mean over less than a ship length has not seen the ship's whole side pass
-    // A little less than one: the field's ends are not used to the last metre.
-    if (draft.averaged_lengths < 0.95)
-        say_warning(fmt::format(
-            "the field is short: forces are averaged over {:.2f} ship lengths; area.size of {:.3g} "
-            "m along x makes it one",
-            draft.averaged_lengths, 1.6 * draft.length));
+    warn_of_short_field(draft);
     return out;
 }
 

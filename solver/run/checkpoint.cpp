@@ -120,10 +120,20 @@ void check_case(const std::filesystem::path& path, const Identity& then, const I
     auto all = old_keys;
     all.insert(new_keys.begin(), new_keys.end());
     std::string differences;
-    for (const auto& [name, unused] : all)
-        if (text(old_keys, name) != text(new_keys, name))
-            differences += fmt::format("\n  {}: {} in the checkpoint, {} in the case", name,
-                                       text(old_keys, name), text(new_keys, name));
+    std::vector<std::string> changed;
+    for (const auto& [name, unused] : all) {
+        if (text(old_keys, name) == text(new_keys, name)) continue;
+        changed.push_back(name);
+        differences += fmt::format("\n  {}: {} in the checkpoint, {} in the case", name,
+                                   text(old_keys, name), text(new_keys, name));
+    }
+    // The default of this key follows from the one key that may change.
+    const std::string follows = "output.average_from";
+    if (changed == std::vector{follows} && parameters.average_from == parameters.duration / 3.0)
+        throw bad_input(path.string(), "is of another case:" + differences,
+                        fmt::format("{0} is a third of simulation.duration unless it is given: "
+                                    "add --set {0}={1}",
+                                    follows, text(old_keys, follows)));
     if (!differences.empty()) refuse(path, "is of another case:" + differences);
     for (std::size_t k = 0; k < std::min(then.shapes.size(), now.shapes.size()); ++k)
         if (then.shapes[k] != now.shapes[k]) refuse(path, other_shapes(parameters, k));

@@ -128,6 +128,9 @@ int lock_file(const fs::path& folder) {
 RunFolder::RunFolder(fs::path folder, Existing existing, const FolderCommands& commands)
     : path_(std::move(folder)) {
     std::error_code error;
+    if (fs::exists(path_, error) && !fs::is_directory(path_, error))
+        throw run_failed(path_.string(), "is a file, no folder",
+                         "choose another folder with --out");
     fs::create_directories(path_, error);
     if (error)
         throw run_failed(path_.string(), "cannot be created: " + error.message(),

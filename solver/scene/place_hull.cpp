@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/base/error.hpp"
+#include "common/formats/spheres_file.hpp"
 
 namespace ice {
 
@@ -23,6 +24,24 @@ std::pair<double, double> heights_of(const TriangleMesh& mesh) {
         std::minmax_element(mesh.vertices.begin(), mesh.vertices.end(),
                             [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
     return {low->z(), high->z()};
+}
+
+// A set of floes that is deeper than the draught may be the hull's, in the wrong place. A question
+// behind the remedy, or "".
+std::string swapped_set(const Case& parameters, double draught) {
+    for (std::size_t g = 0; g < parameters.floes.size(); ++g) {
+        if (parameters.floes[g].spheres.empty()) continue;  // of a field
+        try {
+            const auto [low, high] = heights_of(read_spheres(parameters.floes[g].spheres).mesh);
+            if (high - low > draught)
+                return fmt::format(
+                    "; or is hull.spheres the floe's set? floes.{}.spheres is {:.4g} m deep", g + 1,
+                    high - low);
+        } catch (const Error&) {
+            // a file with a fault of its own, which the next run names
+        }
+    }
+    return "";
 }
 
 }  // namespace
@@ -57,7 +76,8 @@ Vec3 place_hull(const Case& parameters, const TriangleMesh& hull) {
         by_draught ? fmt::format("{:.4g} m", draught)
                    : fmt::format("z = {:.4g} m gives a draught of {:.4g} m", place.z(), draught);
     if (draught >= depth)
-        throw bad_input(where, given + ": the hull would lie wholly under water; " + mesh, remedy);
+        throw bad_input(where, given + ": the hull would lie wholly under water; " + mesh,
+                        remedy + swapped_set(parameters, draught));
     throw bad_input(where, given + ": the hull would lie above the water; " + mesh, remedy);
 }
 

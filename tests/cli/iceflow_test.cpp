@@ -96,6 +96,8 @@ TEST_CASE("iceflow refuses with exit code 2 and leaves nothing behind", "[cli][f
     const auto refuses = w.refusing("iceflow ");
     refuses("", "no hull given");
     refuses("lost.h5", "lost.h5");
+    refuses("lost.obj", "lost.obj: file not found");
+    refuses(ICE_MESHES "/paper-hull-3d.obj", "paper-hull-3d.obj: is a mesh, not a sphere set");
     refuses("box.h5 --draught 0", "--draught");
     refuses("box.h5 --draught 9", "does not cut the hull");
     refuses("box.h5 --draught 0.2 --panel 1e-4", "allow longer edges");
@@ -129,7 +131,8 @@ void check_refused_flows(const Workshop& w, const std::string& flow) {
     says("--set flow.file=" + flow, 2, "only flow.model = \"file\" takes it");
     says("--set flow.model=file --set flow.file=" + flow + " --set hull.draught=1.2", 2,
          "is for a draught of 1.44 m");
-    says("--set flow.model=file --set flow.file=floe.h5", 2, "is not a flow");
+    says("--set flow.model=file --set flow.file=floe.h5", 2,
+         "is a sphere set, made by spherize, not a flow");
     says("--set flow.added_mass=computed --set simulation.dimension=2", 2, "in 3D only");
 }
 

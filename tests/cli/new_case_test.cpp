@@ -51,6 +51,23 @@ std::string required_keys(const std::string& hull, const std::string& more = "")
            hull + "\n[[floes]]\npattern = \"file\"\nfile = \"ice.h5\"\n" + more;
 }
 
+// A drafted case with the level ice of its comments in the place of its floes.
+std::string with_sheet(const std::string& drafted) {
+    std::istringstream lines(drafted);
+    std::string out;
+    bool floes = false, sheet = false;
+    for (std::string text; std::getline(lines, text);) {
+        if (text == "[[floes]]" || text.starts_with("# Unbroken ice")) {
+            sheet = !(floes = text == "[[floes]]");
+            continue;
+        }
+        if (text.starts_with("[")) floes = sheet = false;
+        if (!floes)
+            out += (sheet ? text.substr(std::min<std::size_t>(2, text.size())) : text) + '\n';
+    }
+    return out;
+}
+
 double mean_of(const Workshop& w, const std::string& name, const std::string& text) {
     w.write(name + ".cfg", text);
     const Result r = w.run("icesolve " + name + ".cfg --no-report --out " + name);
@@ -130,7 +147,7 @@ TEST_CASE("the option --new writes a case that runs as it is, from a mesh and a 
     fs::copy_file(ICE_MESHES "/paper-hull-3d.obj", w / "my ship" / "hull.obj");
     w.write("my ship/ice.toml",
             "pattern = \"grid\"\n[ice]\nthickness = 0.3\n[spheres]\nradius = 0.1\nspacing = 0.3\n"
-            "[floes]\nsize = [1, 1]\ncount = [18, 3]\ngap = [0.1, 0.1]\n[edges]\nbreadth = 1\n");
+            "[floes]\nsize = [1, 1]\ncount = [23, 3]\ngap = [0.1, 0.1]\n[edges]\nbreadth = 1\n");
     const Result r =
         w.run("icesolve --new 'my ship/hull.obj' 'my ship/ice.toml' -o 'my ship/first.cfg'");
     CAPTURE(r.err);
@@ -147,7 +164,11 @@ TEST_CASE("the option --new writes a case that runs as it is, from a mesh and a 
     // from any folder, without a warning: the ship meets the ice and stays in it
     const Result check = w.run("icesolve 'my ship/first.cfg' --check");
     CHECK(check.code == 0);
-    CHECK_THAT(check.err, Catch::Contains(": good, ") && Catch::Contains("averaged over 1.0"));
+    CHECK_THAT(check.err, Catch::Contains(": good, ") && Catch::Contains("averaged over 1.2"));
+    // a ship length in the ice before, so that floes lie along the whole hull
+    CHECK_THAT(text,
+               Catch::Contains("s: 1.00 ship lengths in the ice; averages over the last 1.2"));
+    CHECK_THAT(r.err, !Catch::Contains("the field is short"));
     const Result run = w.run(
         "icesolve 'my ship/first.cfg' --set simulation.duration=1 --set output.average_from=0.5 "
         "--no-report --out run");
@@ -172,7 +193,8 @@ TEST_CASE("the option --new without ice drafts some of the ship's size", "[cli]"
     const Result r = w.run("icesolve --new ship.stl");
     CAPTURE(r.err);
     REQUIRE(r.code == 0);
-    CHECK_THAT(slurp(w / "ice.toml"), Catch::Contains("thickness = 1"));
+    CHECK_THAT(slurp(w / "ice.toml"),
+               Catch::Contains("thickness = 1") && Catch::Contains("size = [250, "));
     CHECK_THAT(slurp(w / "ship.cfg"),
                Catch::Contains("draught = 7.8") && Catch::Contains("CHECK: 0.6 of the depth"));
     const Result check = w.run("icesolve ship.cfg --check");
@@ -180,18 +202,7 @@ TEST_CASE("the option --new without ice drafts some of the ship's size", "[cli]"
     CHECK_THAT(check.err, Catch::Contains(": good, "));
 
     // the level ice that its comments offer, in the place of the floes, is a case, too
-    std::istringstream lines(slurp(w / "ship.cfg"));
-    std::string level;
-    bool floes = false, sheet = false;
-    for (std::string text; std::getline(lines, text);) {
-        if (text == "[[floes]]" || text.starts_with("# Unbroken ice")) {
-            sheet = !(floes = text == "[[floes]]");
-            continue;
-        }
-        if (text.starts_with("[")) floes = sheet = false;
-        if (!floes)
-            level += (sheet ? text.substr(std::min<std::size_t>(2, text.size())) : text) + '\n';
-    }
+    const std::string level = with_sheet(slurp(w / "ship.cfg"));
     CAPTURE(level);
     CHECK_THAT(level, Catch::Contains("\n[level_ice]\n") && !Catch::Contains("floes]]"));
     w.write("level.cfg", level);
@@ -210,6 +221,10 @@ TEST_CASE("the option --new without ice drafts some of the ship's size", "[cli]"
     CAPTURE(twice.err);
     REQUIRE(twice.code == 0);
     CHECK_THAT(slurp(w / "twice/ship.cfg"), Catch::Contains("draught = 15.6"));
+    CHECK_THAT(r.err, !Catch::Contains("the field is short"));
+    // a field of 2.5 lengths is one of 1.25 for it
+    CHECK_THAT(twice.err, Catch::Contains("the field is short: forces are averaged over 0.") &&
+                              Catch::Contains("area.size of") && Catch::Contains("one or more"));
     const Result set = w.run("icesolve --new ship.spheres.h5 ice.h5 -o set.cfg --units mm");
     CHECK(set.code == 2);
     CHECK_THAT(set.err, Catch::Contains("--units: says how to read a mesh, but ship.spheres.h5") &&

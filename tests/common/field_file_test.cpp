@@ -150,11 +150,13 @@ TEST_CASE("what is wrong in a field is named with file and dataset", "[formats]"
 
 TEST_CASE("a file of another format, or of none, is said to be no ice field", "[formats]") {
     const TempFolder folder;
-    const std::string format = GENERATE("", "icesolve-spheres");
+    const std::string format = GENERATE("", "icesolve-spheres", "somebody's");
     {
         Hdf5File file(folder / "field.h5", Hdf5File::Mode::create);
         if (!format.empty()) file.write_attribute("/", "format", format);
     }
     CHECK_THAT(error_text([&] { read_field(folder / "field.h5"); }),
-               Catch::Contains("field.h5: /: is not an ice field"));
+               Catch::Contains(format == "icesolve-spheres"
+                                   ? "field.h5: is a sphere set, made by spherize, not an ice field"
+                                   : "field.h5: /: is not an ice field"));
 }

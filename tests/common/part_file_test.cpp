@@ -51,6 +51,13 @@ TEST_CASE("writing a text into a folder that does not exist is an error naming t
     CHECK(read_bytes(folder / "x.csv") == "1\n");
 }
 
+TEST_CASE("a folder or a device is no place for a file", "[base][errors]") {
+    const TempFolder folder;
+    CHECK_THAT(error_text([&] { PartFile(folder.path()); }), Catch::Contains(": is a folder\n"));
+    CHECK_THAT(error_text([] { PartFile("/dev/null"); }),
+               Catch::Contains("/dev/null: exists and is no file: it would be replaced"));
+}
+
 TEST_CASE("a program that ends without unwinding removes what is not finished, nothing else",
           "[base]") {
     const TempFolder folder;

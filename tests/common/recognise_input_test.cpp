@@ -18,6 +18,11 @@ TEST_CASE("a mesh, an HDF5 file and UTF-16 are recognised, TOML is not", "[toml]
     CHECK(recognise_file("a.cfg", "\xFF\xFEt")->what == "text in UTF-16");
     CHECK_FALSE(recognise_file("a.cfg", "title = \"x\""));
     CHECK_FALSE(recognise_file("a.cfg", ""));
+    CHECK(recognise_format("ice.h5", "icesolve-field")->what == "an ice field, made by icefield");
+    CHECK(recognise_format("ice.h5", "icesolve-field")->remedy ==
+          "a case names it: [[floes]], pattern = \"file\", file = \"ice.h5\"");
+    for (const char* other : {"", "icesolve", "somebody's"})
+        CHECK_FALSE(recognise_format("ice.h5", other));
 }
 
 TEST_CASE("a TOML file of another kind is recognised by the tables that only it has", "[toml]") {

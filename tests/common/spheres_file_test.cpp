@@ -2,6 +2,9 @@
 // Tolerances: 1e-7 is a normal stored as floats.
 #include "common/formats/spheres_file.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <catch2/catch.hpp>
 #include <functional>
 #include <limits>
@@ -174,6 +177,18 @@ TEST_CASE("files that are no sphere set say so, with the remedy", "[formats]") {
     { Hdf5File file(folder / "x.h5", Hdf5File::Mode::create); }
     CHECK_THAT(complaint(), Catch::Contains("is not a sphere set"));
     CHECK_THAT(complaint(), Catch::Contains("make the file again with spherize"));
+    for (const auto& [format, kind, use] :
+         {std::array{"icesolve-field", "an ice field, made by icefield", "pattern = \"file\""},
+          std::array{"icesolve-flow", "a flow around a hull, made by iceflow", "[flow]"},
+          std::array{"icesolve-result", "the result of a run", "icepost report"}}) {
+        {
+            Hdf5File file(folder / "x.h5", Hdf5File::Mode::create);
+            file.write_attribute("/", "format", format);
+        }
+        CHECK_THAT(complaint(),
+                   Catch::Contains(fmt::format("x.h5: is {}, not a sphere set", kind)) &&
+                       Catch::Contains(use));
+    }
     {
         Hdf5File file(folder / "x.h5", Hdf5File::Mode::create);
         file.write_attribute("/", "format", "icesolve-spheres");

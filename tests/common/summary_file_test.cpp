@@ -185,6 +185,20 @@ TEST_CASE("a warning says behind its text what it does to the mean", "[formats]"
     CHECK(with_verdict({"jam", false}) == "jam (does not affect the mean resistance)");
 }
 
+TEST_CASE("the share of the mean that warnings affect is the largest of those that affect it",
+          "[formats]") {
+    CHECK(affected_share({}) == 0.0);
+    CHECK(affected_share({{"overlap", false, 0.01}, {"flow", false}}) == 0.0);
+    CHECK(affected_share({{"overlap", false, 0.01}, {"jam", true, 0.125}, {"trend", true, 0.2}}) ==
+          0.2);
+    // no part of a mean is larger than the mean
+    CHECK(affected_share({{"jam", true, 7.11}}) == 1.0);
+    // without a number nothing is known, unless another warning has one
+    CHECK_FALSE(affected_share({{"nothing touched anything", true}}));
+    CHECK_FALSE(affected_share({{"of an older program"}}));
+    CHECK(affected_share({{"nothing touched anything", true}, {"jam", true, 0.3}}) == 0.3);
+}
+
 TEST_CASE("an ensemble and the figures of its interval come back", "[formats]") {
     Summary s = make_summary();
     s.resistance.correlation_time = 0.75;

@@ -17,18 +17,26 @@ TEST_CASE("runs are compared a line each, missing values as a dash", "[report]")
     b.lindqvist_submersion.reset();
     b.unconverged_steps = 45;
     b.status = "interrupted";
+    a.warnings = {{"a trend", true, 0.25}, {"overlap", false, 0.01}};  // and b: not measured
     const std::string text = compare_text({{"results/a", a}, {"results/longer", b}});
     CHECK(count(text, "\n") == 3);
     CHECK_THAT(text, Catch::Contains("results/a         1107      12"));
     CHECK_THAT(text,
-               Catch::Contains("954            5              0  until-hull-contact  completed\n"));
+               Catch::Contains("954            5              0  until-hull-contact  completed"
+                               "            25\n"));
     CHECK_THAT(text, Catch::Contains("results/longer   -0.25       -"));
-    CHECK_THAT(text, Catch::Contains("10  until-hull-contact  interrupted\n"));  // 45 of 450 steps
+    // 45 of 450 steps
+    CHECK_THAT(text, Catch::Contains("10  until-hull-contact  interrupted           -\n"));
 
     const std::string csv = compare_csv({{"a, \"b\"", b}});
     CHECK_THAT(csv, Catch::StartsWith("run,mean_N,ci95_N,contact_N,friction_N,std_N,max_N,"));
     CHECK_THAT(csv, Catch::Contains("\n\"a, \"\"b\"\"\",-0.25,,1006,101,143,1320,,5,10,"
-                                    "until-hull-contact,interr"));
+                                    "until-hull-contact,interrupted,\n"));
+    // columns are added at the end only: scripts count on the others' places
+    CHECK_THAT(csv, Catch::Contains(",hold,status,affected_%\n"));
+    CHECK_THAT(compare_csv({{"a", a}}), Catch::EndsWith(",completed,25\n"));
+    a.warnings.clear();
+    CHECK_THAT(compare_csv({{"a", a}}), Catch::EndsWith(",completed,0\n"));
     CHECK(compare_text({}).find("mean_N") != std::string::npos);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tolerances: 1e-12 is rounding of a time.
 #include <catch2/catch.hpp>
+#include <functional>
 
 #include "tests/postprocess/make_folder.hpp"
 #include "tests/support/tolerance.hpp"
@@ -65,4 +66,11 @@ TEST_CASE("a folder that does not exist or holds no run is named", "[read]") {
                Catch::Contains("no: run folder not found"));
     CHECK_THAT(error_text([&] { read::read_run_folder(folder.path()); }),
                Catch::Contains("holds no run.h5"));
+    // a case is told from the folder it lies in
+    write_bytes(folder / "first.cfg", "title = \"x\"\n");
+    for (const auto& reads :
+         {std::function<void()>([&] { read::read_run_folder(folder / "first.cfg"); }),
+          std::function<void()>([&] { read::find_summary(folder / "first.cfg"); })})
+        CHECK_THAT(error_text(reads), Catch::Contains("first.cfg: is a file, not a run folder") &&
+                                          Catch::Contains("give the folder that icesolve wrote"));
 }

@@ -120,6 +120,44 @@ TEST_CASE("a study's text and page give the interval beside the model uncertaint
     CHECK(tag_fault(markup_of(page)) == "");
 }
 
+TEST_CASE("a study in level ice gives the errors against model tests in place of 10 %",
+          "[sensitivity]") {
+    const TempFolder folder;
+    write_study(folder);
+    // the case itself decides; the runs of an input may have another release rule
+    for (const int seed : {1, 2, 3}) {
+        const auto file = folder / fmt::format("runs/__seed={}/summary.json", seed);
+        Summary s = read_summary(file);
+        s.ice.hold = {"until-bent", "always"};
+        write_bytes(file, summary_text(s));
+    }
+    const Study study = read_study(folder.path());
+    CHECK(study.level_ice);
+    const std::string text = study_text(study);
+    // of a mean of 1000 N
+    CHECK_THAT(text, Catch::Contains("11 to 39 % mean error against model tests in level ice, on "
+                                     "top of it: 110 to 390 N"));
+    const std::string page = make_study_page(study), svg = make_tornado(study);
+    CHECK_THAT(page, Catch::Contains("<b>110 to 390 N</b>") &&
+                         Catch::Contains("the least and the largest mean error against model "
+                                         "tests (docs/validation-measured.md), and the bars."));
+    CHECK_THAT(svg, Catch::Contains("error in model tests, 11 to 39 %"));
+    for (const std::string& out : {text, page, svg})
+        CHECK_THAT(out, !Catch::Contains("10 % stated") && !Catch::Contains("model uncertainty"));
+    CHECK(tag_fault(markup_of(page)) == "");
+    // one band inside the other: 11 and 39 % to both sides
+    const auto breadth = [&](const std::string& color) {
+        std::smatch found;
+        const std::regex band(
+            "<rect x=\"[0-9.]+\" y=\"[0-9.]+\" width=\"([0-9.]+)\" "
+            "height=\"[0-9.]+\" fill=\"" +
+            color + "\"/>");
+        return std::regex_search(svg, found, band) ? std::stod(found[1]) : 0.0;
+    };
+    REQUIRE(breadth("#e4e7ea") > 0.0);
+    CHECK(breadth("#f1f3f5") == Near(breadth("#e4e7ea") * 39.0 / 11.0).margin(0.5));
+}
+
 TEST_CASE("bars of the tornado are as long as the differences and stay inside the chart",
           "[sensitivity][property]") {
     const TempFolder folder;

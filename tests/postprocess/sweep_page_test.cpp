@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "postprocess/report/write_report.hpp"
+#include "postprocess/sweep/affected_runs.hpp"
 #include "postprocess/sweep/split_sweep.hpp"
 #include "postprocess/sweep/sweep_head.hpp"
 #include "postprocess/sweep/sweep_markdown.hpp"
@@ -40,10 +41,85 @@ TEST_CASE("the page of a sweep has curves, small multiples, tables and CSV", "[s
     CHECK_THAT(csv, Catch::StartsWith("contact.friction_ship_ice,hull.speed,runs,resistance_N,"
                                       "resistance_ci95_N,bow_N,"));
     CHECK_THAT(csv, Catch::Contains("\r\n0.1,0.5,3,510,"));
-    CHECK_THAT(csv, Catch::Contains(",hold\r\n") && Catch::Contains(",until-hull-contact\r\n"));
+    CHECK_THAT(csv, Catch::Contains(",hold,affected_%\r\n") &&
+                        Catch::Contains(",until-hull-contact,\r\n"));  // not measured
     CHECK_THAT(page, Catch::Contains("<th scope=\"col\">release rule</th>"));
     CHECK(count(run_csv(sweep), "\r\n") == 13);
     CHECK(encode_address("a b/c=1,2%\u00e4") == "a%20b/c%3D1%2C2%25%C3%A4");
+}
+
+TEST_CASE("a sweep says how many runs have warnings that affect their mean, and by how much",
+          "[sweep]") {
+    const TempFolder folder;
+    const auto write = [&](double speed, const std::vector<Warning>& warnings) {
+        const auto run = folder / fmt::format("u{}", speed);
+        write_run(run, speed, 0.1, 1, 1000.0 * speed);
+        Summary s = read_summary(run / "summary.json");
+        s.warnings = warnings;
+        write_bytes(run / "summary.json", summary_text(s));
+    };
+    write(0.5, {{"a trend <up>", true, 0.37}, {"overlap", false, 0.01}});
+    write(0.75, {{"short averages", true, 0.09}});
+    write(1.0, {{"a picture is wrong", false}});
+    Sweep sweep = read_sweep(folder.path());
+    const std::string line =
+        "2 of 3 completed runs have warnings that affect their mean, by up to 37 %";
+    CHECK(affected_line(sweep) == line);
+
+    std::string page = make_sweep_page(sweep, folder / "sweep.html");
+    CHECK(tag_fault(markup_of(page)).empty());
+    CHECK(page.find("3 of 3 runs completed") < page.find(line));
+    CHECK(count(page, line) == 2);  // in the head, and over the texts
+    CHECK_THAT(page, Catch::Contains("<a href=\"u0.5\">u0.5</a>: a trend &lt;up&gt; (affects the "
+                                     "mean resistance: about 37 % of it)</li>"));
+    CHECK_THAT(page, Catch::Contains("short averages (affects") &&
+                         !Catch::Contains("overlap (hardly") &&
+                         !Catch::Contains("a picture is wrong"));
+    CHECK_THAT(page, Catch::Contains("<th scope=\"col\">Mean affected by [%]</th>") &&
+                         Catch::Contains("<td>37</td></tr>"));
+    const std::string points = point_csv(sweep, make_points(sweep)), runs = run_csv(sweep);
+    CHECK_THAT(points, Catch::Contains(",until-hull-contact,37\r\n"));
+    CHECK_THAT(points, Catch::EndsWith(",until-hull-contact,0\r\n"));
+    CHECK_THAT(runs, Catch::Contains(",remark,affected_%\r\n") && Catch::Contains(",,37\r\n") &&
+                         Catch::EndsWith(",,0\r\n"));
+
+    // one run, and a share that nothing has measured
+    write(0.5, {});
+    write(0.75, {{"nothing touched anything", true}});
+    sweep = read_sweep(folder.path());
+    CHECK(affected_line(sweep) ==
+          "1 of 3 completed runs has warnings that affect its mean; by how much was not measured");
+    CHECK_THAT(run_csv(sweep), Catch::Contains(",,\r\n"));
+    write(0.75, {});
+    sweep = read_sweep(folder.path());
+    CHECK(affected_line(sweep).empty());
+    page = make_sweep_page(sweep, folder / "sweep.html");
+    CHECK(page.find("id=\"affected\"") == std::string::npos);
+}
+
+TEST_CASE("a point of several runs is affected as much as the worst of them", "[sweep]") {
+    const TempFolder folder;
+    write_grid(folder);
+    Sweep sweep = read_sweep(folder.path());
+    for (SweepRun& run : sweep.runs) run.summary->warnings.clear();
+    sweep.runs[0].summary->warnings = {{"a trend", true, 0.25}};  // of mu = 0.1, u = 0.5
+    sweep.runs[1].summary->warnings = {{"a jam", true, 0.5}};
+    const std::string csv = point_csv(sweep, make_points(sweep));
+    CHECK(count(csv, ",50\r\n") == 1);
+    CHECK(count(csv, ",0\r\n") == 3);
+}
+
+TEST_CASE("of very many warnings the first two hundred are listed", "[sweep]") {
+    Sweep sweep;
+    sweep.runs.resize(70);
+    for (SweepRun& run : sweep.runs) {
+        run.name = "run";
+        run.summary = *make_folder().summary;
+        run.summary->warnings = {{"a", true, 0.1}, {"b", true, 0.1}, {"c", true, 0.1}};
+    }
+    const std::string list = affected_section(sweep, "sweep.html");
+    CHECK(count(list, "<li>run: ") == 200);
+    CHECK_THAT(list, Catch::Contains("<li>and 10 more: see the reports of the runs</li>"));
 }
 
 TEST_CASE("an interval of two runs says so", "[sweep]") {

@@ -293,7 +293,9 @@ TEST_CASE("units are guessed from the length only where metres are impossible", 
     const Chosen told = choose(test::make_box_mesh(Vec3(9000, 900, 900)), options);
     CHECK(told.frame.metres == 1.0);
     CHECK_FALSE(told.notes.guessed.contains("units"));
-    CHECK(told.notes.warnings.size() == 1);  // 9 km
+    REQUIRE(told.notes.warnings.size() == 1);  // 9 km
+    CHECK(told.notes.warnings[0] ==
+          "the solid is 9e+03 m long: if that is wrong, correct --units or --scale");
 }
 
 TEST_CASE("a stray triangle, an island, a sea plane and a domain's box fool no guess of units",

@@ -88,6 +88,31 @@ class Package(unittest.TestCase):
         self.assertEqual(sweep.resistance.units, "N")
         self.assertAlmostEqual(float(sweep.thickness[0]), 0.3, delta=1e-9)  # of the paper's floe
 
+    def folder_with(self, name, warned):
+        """A run folder of a summary with these warnings alone."""
+        folder = self.folder / name
+        folder.mkdir(parents=True)
+        summary = {**self.last.summary, "warnings": warned}
+        (folder / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
+        return folder
+
+    def test_warnings_keep_their_verdicts(self):
+        jam = {"text": "a jam", "affects_mean": True, "share": 0.25}
+        overlap = {"text": "an overlap", "affects_mean": False, "share": 0.01}
+        found = icesolve.open_run(self.folder_with("warned/jam", [jam, overlap])).warnings
+        self.assertEqual(found, ["a jam", "an overlap"])  # texts, as before
+        self.assertEqual([(w.affects_mean, w.share) for w in found], [(True, 0.25), (False, 0.01)])
+        unknown = icesolve.open_run(self.folder_with("warned/older", ["a text"])).warnings[0]
+        self.assertEqual((unknown, unknown.affects_mean, unknown.share), ("a text", None, None))
+
+        self.folder_with("warned/none", [overlap])
+        self.folder_with("warned/more", [{**jam, "share": 7.11}])  # no more than the whole mean
+        sweep = icesolve.open_sweep(self.folder / "warned")
+        affected = dict(zip(sweep.run.values, sweep.affected.values))
+        self.assertTrue(math.isnan(affected.pop("older")))
+        self.assertEqual(affected, {"jam": 25.0, "more": 100.0, "none": 0.0})
+        self.assertEqual(sweep.affected.units, "%")
+
     def test_frames_follow_the_floes(self):
         frames = self.last.frames
         # floe 0 of 18 x 9 pieces of 0.8 x 0.8 m and gaps of 0.1 m, held or pushed ahead of the ship

@@ -57,6 +57,27 @@ TEST_CASE("mistakes are named with line, column and remedy", "[case][errors]") {
             " 2D case"));
 }
 
+TEST_CASE("a mistake in an override is named with the option that it is in", "[case][errors]") {
+    CHECK(contains(complaint(kGood, {"hull.speed=1", "hull.sped=2"}),
+                   "--set hull.sped=2: error: unknown key 'hull.sped'"));
+    // also where it shows only against other keys, in one group of floes or in all
+    const std::string rigid = "contact.crushing_pressure=inf";
+    for (const std::string hold : {"floes.hold=until-bent", "floes.1.hold=until-bent"})
+        CHECK(contains(complaint(kGood, {rigid, hold}),
+                       "--set " + hold +
+                           ": error: floes.1.hold = \"until-bent\" needs a finite "
+                           "contact.crushing_pressure: the force of the ship on rigid ice that is "
+                           "held has no value; 1 MPa is the default in 3D"));
+    // of a long one the beginning
+    const std::string text = complaint(kGood, {"output.track=[" + std::string(200, ' ') + "1.5]"});
+    CHECK(contains(text, "--set output.track=[" + std::string(46, ' ') + "...: error: "));
+    // what icefield makes, and a slip
+    CHECK(contains(complaint(kGood, {"floes.pattern=voronoi"}),
+                   "is none of grid|brick|single|file; icefield makes others: pattern = \"file\""));
+    CHECK(contains(complaint(kGood, {"floes.pattern=bricks"}),
+                   "is none of grid|brick|single|file; did you mean \"brick\"?"));
+}
+
 TEST_CASE("all mistakes come in one go", "[case][errors]") {
     const std::string text =
         complaint(with("duration = 30.0", "duration = -1.0\nspeeed = 3\n") + "foo = 1\n");

@@ -11,6 +11,7 @@
 #include "common/formats/spheres_file.hpp"
 #include "solver/draft/draft_case.hpp"
 #include "solver/scene/build_scene.hpp"
+#include "tests/common/fixtures.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 #include "tests/support/temporary_file.hpp"
 #include "tests/support/tolerance.hpp"
@@ -49,6 +50,23 @@ Field make_field() {
                    {1, {9.0, -2.0}, turned, false},
                    {1, {5.0, -3.0}, straight, true}};
     return field;
+}
+
+// Of a hull of 10 x 2 x 1 m, half of it above z = 0, and floes in a row from x = 0.005 m on.
+Draft drafted(int floes) {
+    const test::TemporaryFile hull(".spheres.h5", ""), file(".h5", "");
+    write_spheres(hull.path(), box_set({10.0, 2.0, 1.0}, 0.2, 0.4));
+    Field field;
+    field.radius = 0.1;
+    field.spacing = 0.2;
+    field.mode = "surface";
+    SphereSet floe = box_set(kSmall, 0.1, 0.2);
+    floe.mesh.region_names = {"ice"};
+    field.shapes.push_back(floe);
+    for (int k = 0; k < floes; ++k)
+        field.floes.push_back({0, {0.505 + 1.25 * k, 0.0}, Eigen::Quaterniond::Identity(), false});
+    write_field(file.path(), field);
+    return draft_case(hull.path(), file.path());
 }
 
 Case parameters(const test::TemporaryFile& hull, const test::TemporaryFile& field) {
@@ -101,21 +119,7 @@ TEST_CASE("a field's hold is the case's for loose floes only", "[scene][field]")
 }
 
 TEST_CASE("a drafted case of a box hull has the numbers that follow by hand", "[draft][analytic]") {
-    // a hull of 10 x 2 x 1 m, half of it above z = 0, and 16 floes in a row from x = 0.005 m on
-    const test::TemporaryFile hull(".spheres.h5", ""), file(".h5", "");
-    write_spheres(hull.path(), box_set({10.0, 2.0, 1.0}, 0.2, 0.4));
-    Field field;
-    field.radius = 0.1;
-    field.spacing = 0.2;
-    field.mode = "surface";
-    SphereSet floe = box_set(kSmall, 0.1, 0.2);
-    floe.mesh.region_names = {"ice"};
-    field.shapes.push_back(floe);
-    for (int k = 0; k < 16; ++k)
-        field.floes.push_back({0, {0.505 + 1.25 * k, 0.0}, Eigen::Quaterniond::Identity(), false});
-    write_field(file.path(), field);
-
-    const Draft draft = draft_case(hull.path(), file.path());
+    const Draft draft = drafted(24);
     CHECK(draft.draught_from_mesh);
     CHECK(draft.draught == 0.5);
     CHECK(draft.length == Near(10.0).epsilon(1e-12));
@@ -126,15 +130,49 @@ TEST_CASE("a drafted case of a box hull has the numbers that follow by hand", "[
     // 0.0657 sqrt(9.81 m/s2 x 10 m) = 0.6507 m/s; a fifth of 0.1 m at 0.65 m/s is 0.031 s
     CHECK(draft.speed == 0.65);
     CHECK(draft.time_step == 0.02);
-    // 15 m and the clearance are 1215.8 steps of 0.013 m; the last 10 m take 15.385 s
-    CHECK(draft.duration == Near(1216 * 0.02).epsilon(1e-12));
-    CHECK(draft.average_from == 8.94);
-    CHECK(draft.lengths == Near(0.65 * 24.32 / 10.0).epsilon(1e-12));
-    // level ice: a quarter of a length beyond the way of the bow, -0.8 + 0.65 x 24.32 + 2.5 m, and
+    // 22 m and the clearance are 1754.2 steps of 0.013 m; the averages begin after a ship length in
+    // the ice: the last 12 m take 18.462 s
+    CHECK(draft.duration == Near(1755 * 0.02).epsilon(1e-12));
+    CHECK(draft.average_from == 16.6);
+    CHECK(draft.lengths == Near(0.65 * 35.1 / 10.0).epsilon(1e-12));
+    CHECK(draft.averaged_lengths == Near(0.65 * 18.5 / 10.0).epsilon(1e-12));
+    CHECK(draft.settled_lengths == Near((0.65 * 16.6 - 0.805) / 10.0).epsilon(1e-9));
+    // level ice: a quarter of a length beyond the way of the bow, -0.8 + 0.65 x 35.1 + 2.5 m, and
     // three half breadths to both sides
     CHECK(draft.thickness == 0.4);
     CHECK(draft.ice_from == 0.0);
-    CHECK(draft.ice_to == 18.0);
+    CHECK(draft.ice_to == 25.0);
     CHECK(draft.ice_starboard == -3.0);
     CHECK(draft.ice_port == 3.0);
+}
+
+TEST_CASE("a hull under water asks for the sets that were swapped", "[scene][errors]") {
+    const test::TemporaryFile small(".spheres.h5", ""), large(".spheres.h5", "");
+    write_spheres(small.path(), box_set(kSmall, 0.1, 0.2));
+    write_spheres(large.path(), box_set({10.0, 2.0, 1.8}, 0.2, 0.4));
+    Case p;
+    p.hull_spheres = small.path();
+    p.hull_draught = 1.44;
+    p.speed_table = {{0.0, 1.0}};
+    p.floes.resize(1);
+    p.floes[0].spheres = large.path();
+    const auto complaint = [&] { return test::error_text([&] { build_scene(p); }); };
+    CHECK_THAT(complaint(),
+               Catch::Contains("the hull would lie wholly under water; the mesh is 0.4 m "
+                               "deep") &&
+                   Catch::Contains("or is hull.spheres the floe's set? "
+                                   "floes.1.spheres is 1.8 m deep"));
+    p.hull_draught = 2.0;  // more than either is deep
+    CHECK_THAT(complaint(),
+               Catch::Contains("wholly under water") && !Catch::Contains("floe's set"));
+}
+
+TEST_CASE("a drafted case of a short field averages over the last ship length all the same",
+          "[draft][analytic]") {
+    // 15 floes end at x = 18.505 m: 95 % of the 19.305 m from the bow to there are 18.34 m
+    const Draft draft = drafted(15);
+    CHECK(draft.duration == Near(1411 * 0.02).epsilon(1e-12));
+    CHECK(draft.average_from == 12.8);  // the last 10 m take 15.385 s
+    CHECK(draft.averaged_lengths == Near(0.65 * (28.22 - 12.8) / 10.0).epsilon(1e-12));
+    CHECK(draft.settled_lengths == Near((0.65 * 12.8 - 0.805) / 10.0).epsilon(1e-9));
 }

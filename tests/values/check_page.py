@@ -4,7 +4,7 @@ from html.parser import HTMLParser
 
 import numpy as np
 
-from check_tables import SPEEDS, number, rows_of
+from check_tables import SPEEDS, affected_percent, number, rows_of
 
 FORM = "sweep page"
 
@@ -108,11 +108,12 @@ def check_work(work, values, table):
 def check_runs(work, values, table):
     for cells in table[1:]:
         s = work.summary("sweep/" + cells[0])
-        r = s["resistance"]
+        r, affected = s["resistance"], affected_percent([s])
         want = {"Run": cells[0], "Status": s["status"], "Warnings": str(len(s["warnings"])),
                 "Resistance ± 95 % [N]": with_half(r["mean_N"], r["ci95_N"]),
                 "Friction [N]": f"{r['friction_mean_N']:.1f}", "Largest [N]": f"{r['max_N']:.1f}",
                 "Unconverged steps": str(s["contacts"]["unconverged_steps"]),
-                "Wall time [s]": f"{s['wall_s']:.4g}"}
+                "Wall time [s]": f"{s['wall_s']:.4g}",
+                "Mean affected by [%]": "n/a" if affected is None else f"{affected:.4g}"}
         for head, text in zip(table[0], cells, strict=True):
             values.equal(FORM, head, text, want.get(head))

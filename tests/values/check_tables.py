@@ -43,6 +43,14 @@ def rows_of(work, name):
         return list(csv.DictReader(file))
 
 
+def affected_percent(summaries):
+    """The largest share of a mean that a warning affects; None: not measured."""
+    affecting = [w for s in summaries for w in s["warnings"] if w["affects_mean"] is not False]
+    shares = [min(w["share"], 1.0) for w in affecting
+              if w["affects_mean"] and w["share"] is not None]
+    return 100.0 * max(shares) if shares else None if affecting else 0.0
+
+
 def number(text):
     return float(text) if text else None
 
@@ -66,7 +74,8 @@ def check_table(work, values):
                 ("contact_N", r["contact_mean_N"]), ("friction_N", r["friction_mean_N"]),
                 ("max_N", r["max_N"]), ("lindqvist_N", s["lindqvist_submersion_N"]),
                 ("floes_moved", s["floes"]["moved"]),
-                ("unconverged_%", 100 * s["contacts"]["unconverged_steps"] / s["steps"])):
+                ("unconverged_%", 100 * s["contacts"]["unconverged_steps"] / s["steps"]),
+                ("affected_%", affected_percent([s]))):
             values.equal("table.csv", column, number(row[column]),
                          None if want is None else float(want))
 
@@ -82,6 +91,7 @@ def check_runs(work, values):
                  "largest_N": r["max_N"], "lindqvist_submersion_N": s["lindqvist_submersion_N"],
                  "unconverged_steps": s["contacts"]["unconverged_steps"], "wall_s": s["wall_s"],
                  "hold": ", ".join(s["ice"]["hold"]), "remark": ""}
+        values.equal("runs.csv", "affected_%", number(row["affected_%"]), affected_percent([s]))
         for column, text in row.items():
             want = known.get(column)
             if isinstance(want, str):
@@ -115,6 +125,7 @@ def check_points(work, values):
         values.equal("points.csv", "hull.speed", float(row["hull.speed"]), speed)
         values.equal("points.csv", "runs", int(row["runs"]), len(runs))
         values.equal("points.csv", "hold", row["hold"], "never")
+        values.equal("points.csv", "affected_%", number(row["affected_%"]), affected_percent(runs))
         parts = [part_columns(s) for s in runs]
         for name in parts[0]:
             series = [p[name] for p in parts]
