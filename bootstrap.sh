@@ -28,10 +28,9 @@ usage: ./bootstrap.sh COMMAND
          speeds: resistance curve and report
   python build, then what `import icesolve` needs, and its tutorial: a resistance curve from Python
   test   build with the tests, then the whole test suite (CI=true: compiler warnings are errors)
-  sanitize        the tests of solver and file formats with the address and undefined-behaviour
-                  sanitizers
-  sanitize-files  those of the file formats alone
-  sanitize-threads  a few steps of each bench scene with the thread sanitizer
+  sanitize [PROGRAM]...  tests with the address and undefined-behaviour sanitizers: of the test
+         programs PROGRAM (solver_tests, common_tests, ...), or of all
+  sanitize-threads       a few steps of each bench scene with the thread sanitizer
   tidy   clang-tidy over every source; the tests run it over a sample of them
 END
 }
@@ -107,11 +106,20 @@ run_tests() {
     return "$status"
 }
 
+# The programs whose tests `sanitize` runs.
+readonly sanitized=(common_tests preprocess_tests field_tests flow_tests solver_tests
+    postprocess_tests)
+
 # Tests of these programs with the sanitizers; preconditions are alive here, too. Precompiled
 # headers and united sources take two thirds off the compile time.
 run_sanitized() {
     local names
     names=$(IFS='|' && echo "$*")
+    local name
+    for name in "$@"; do
+        [[ " ${sanitized[*]} " == *" $name "* ]] ||
+            fail "sanitize: $name is none of ${sanitized[*]}"
+    done
     install_packages "${packages[@]}" "${test_packages[@]}"
     cmake --preset asan-ubsan -DICE_TESTS=ON -DICE_PRECOMPILED_HEADERS=ON -DICE_UNITED_SOURCES=ON
     cmake --build --preset asan-ubsan --parallel "$(job_count)" --target "$@" write_sample_run
@@ -119,7 +127,7 @@ run_sanitized() {
 }
 
 cd "$(dirname "${BASH_SOURCE[0]}")"
-[[ $# -eq 1 ]] || { usage >&2; exit 2; }
+[[ $# -eq 1 || ${1:-} == sanitize ]] || { usage >&2; exit 2; }
 # one command a line: in "a && b" a failure inside a would not stop the script
 case $1 in
     deps)
@@ -150,10 +158,7 @@ case $1 in
         run_tests "$(preset)" build/release
         ;;
     sanitize)
-        run_sanitized solver_tests common_tests
-        ;;
-    sanitize-files)
-        run_sanitized common_tests
+        if [[ $# -eq 1 ]]; then run_sanitized "${sanitized[@]}"; else run_sanitized "${@:2}"; fi
         ;;
     sanitize-threads)
         install_packages "${packages[@]}" "${test_packages[@]}" clang-14 libclang-rt-14-dev \
