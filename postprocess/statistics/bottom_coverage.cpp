@@ -7,6 +7,7 @@
 
 #include "postprocess/statistics/choose_frames.hpp"
 #include "postprocess/views/depth_map.hpp"
+#include "postprocess/views/seen_triangle.hpp"
 
 namespace ice::statistics {
 
@@ -55,9 +56,8 @@ struct Plan {
 // Marks the cells in which the triangle lies below the hull.
 void cover(const Plan& plan, const Vec3 corner[3], std::vector<char>& covered) {
     const Vec3 &a = corner[0], &b = corner[1], &c = corner[2];
-    const double twice = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-    // seen from its edge it covers nothing
-    if (twice == 0.0) return;
+    const views::SeenTriangle seen(a, b, c);
+    if (seen.covers_nothing()) return;
     const auto range = [&](int axis, double origin, long count) {
         const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
         return std::pair(Plan::first(low - origin, plan.cell, count),
@@ -69,16 +69,10 @@ void cover(const Plan& plan, const Vec3 corner[3], std::vector<char>& covered) {
     const auto [r0, r1] = range(1, plan.box.min().y(), plan.rows);
     for (long row = r0; row < r1; ++row)
         for (long column = c0; column < c1; ++column) {
-            // barycentric coordinates of the cell's centre
-            const double x = plan.x(column), y = plan.y(row);
-            const double u =
-                ((x - a.x()) * (c.y() - a.y()) - (y - a.y()) * (c.x() - a.x())) / twice;
-            const double v =
-                ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) / twice;
-            if (u < 0.0 || v < 0.0 || u + v > 1.0) continue;
+            const auto z = seen.z_at(plan.x(column), plan.y(row));
             const auto k = static_cast<std::size_t>(row * plan.columns + column);
             // NaN compares false: dry cells stay uncovered
-            if (a.z() + u * (b.z() - a.z()) + v * (c.z() - a.z()) < plan.height[k]) covered[k] = 1;
+            if (z && *z < plan.height[k]) covered[k] = 1;
         }
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "postprocess/views/seen_triangle.hpp"
+
 namespace ice::views {
 
 namespace {
@@ -35,10 +37,8 @@ DepthMap::DepthMap(const TriangleMesh& mesh, const Projection& projection, int c
 }
 
 void DepthMap::draw(std::size_t triangle, const Vec3& a, const Vec3& b, const Vec3& c) {
-    // Twice the area on the page, signed. A triangle seen from its edge has none and covers no
-    // cell.
-    const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-    if (area == 0.0) return;
+    const SeenTriangle seen(a, b, c);
+    if (seen.covers_nothing()) return;
     const auto column = [&](double right) { return static_cast<int>((right - right0_) / cell_); };
     const auto row = [&](double up) { return static_cast<int>((up - up0_) / cell_); };
     const int first = std::max(0, column(std::min({a.x(), b.x(), c.x()})));
@@ -48,17 +48,10 @@ void DepthMap::draw(std::size_t triangle, const Vec3& a, const Vec3& b, const Ve
     // cell by cell the triangle nearest to the viewer, at the cell's middle
     for (int r = bottom; r <= top; ++r)
         for (int k = first; k <= last; ++k) {
-            const double x = right0_ + (k + 0.5) * cell_, y = up0_ + (r + 0.5) * cell_;
-            // barycentric coordinates; the sign of the area cancels
-            const double wb =
-                ((x - a.x()) * (c.y() - a.y()) - (y - a.y()) * (c.x() - a.x())) / area;
-            const double wc =
-                ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) / area;
-            if (wb < 0.0 || wc < 0.0 || wb + wc > 1.0) continue;
+            const auto nearness = seen.z_at(right0_ + (k + 0.5) * cell_, up0_ + (r + 0.5) * cell_);
             const auto cell = static_cast<std::size_t>(r * columns_ + k);
-            const double nearness = a.z() + wb * (b.z() - a.z()) + wc * (c.z() - a.z());
-            if (nearness <= nearest_[cell]) continue;
-            nearest_[cell] = nearness;
+            if (!nearness || *nearness <= nearest_[cell]) continue;
+            nearest_[cell] = *nearness;
             triangle_[cell] = triangle;
         }
 }

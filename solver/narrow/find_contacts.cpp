@@ -94,25 +94,16 @@ void ContactFinder::meet(const PairView& view, const SeparatingAxes& axes, doubl
 }
 
 void ContactFinder::keep_polygon(Found& found, FoundBatch& batch) {
-    const auto& [normal, corners] = batch.pair.polygon;
-    found.corner = batch.corners.size();
-    found.corners = corners.size();
-    found.normal = normal;
-    batch.corners.insert(batch.corners.end(), corners.begin(), corners.end());
+    found.corners = FoundPart::append(batch.pair.polygon.corners, batch.corners);
+    found.normal = batch.pair.polygon.normal;
 }
 
 void ContactFinder::keep_seats(Found& found, FoundBatch& batch) {
-    const std::vector<DeepSeat>& seats = batch.pair.seats;
-    found.seat = batch.seats.size();
-    found.seats = seats.size();
-    batch.seats.insert(batch.seats.end(), seats.begin(), seats.end());
+    found.seats = FoundPart::append(batch.pair.seats, batch.seats);
 }
 
 void ContactFinder::keep_candidates(Found& found, FoundBatch& batch) {
-    const std::vector<Candidate>& candidates = batch.pair.candidates;
-    found.first = batch.candidates.size();
-    found.count = candidates.size();
-    batch.candidates.insert(batch.candidates.end(), candidates.begin(), candidates.end());
+    found.candidates = FoundPart::append(batch.pair.candidates, batch.candidates);
 }
 
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs, ContactRule rule,
@@ -171,7 +162,6 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         const std::size_t k = pairs_to_measure_[n];
         FoundBatch& batch = batches_.own();
         found_[n].batch = &batch;
-        found_[n].sphere = batch.spheres.size();
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
         if (states_[k] == PairCache::State::polygon)
             meet(PairView(scene, pairs[k]), cache_.axes(k), most, found_[n], batch);
@@ -183,8 +173,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     for (std::size_t n = 0; n < pairs_to_measure_.size(); ++n) {
         const Found& found = found_[n];
         if (states_[pairs_to_measure_[n]] == PairCache::State::stale)
-            cache_.keep(pairs_to_measure_[n],
-                        std::span(found.batch->spheres).subspan(found.sphere, found.spheres));
+            cache_.keep(pairs_to_measure_[n], found.spheres.of(found.batch->spheres));
     }
     emit(scene, pairs, rule, out);
 }
@@ -198,9 +187,10 @@ void ContactFinder::find_listed(const Scene& scene, BodyPair pair, std::size_t k
     if (state == PairCache::State::stale) {
         // the skin is used up: a new list, with a skin that lasts for some steps
         const Skin skin = skin_of(scene, pair, within.step);
+        found.spheres.first = batch.spheres.size();
         const double least = find_near(view, within.margin, skin, batch.pair.search, batch.spheres);
-        near = std::span(batch.spheres).subspan(found.sphere);
-        found.spheres = near.size();
+        found.spheres.count = batch.spheres.size() - found.spheres.first;
+        near = found.spheres.of(batch.spheres);
         cache_.renew(k, view, motion, skin, std::min(least - within.margin, skin.distance));
         state = cache_.state(k, scene, pair, motion, within.step, within.margin, false);
         if (state == PairCache::State::separated) return;
@@ -236,23 +226,21 @@ void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs,
     std::size_t contacts = 0;
     for (Found& found : found_) {
         found.contact = contacts;
-        contacts += found.count + found.corners + found.seats;
+        contacts += found.candidates.count + found.corners.count + found.seats.count;
     }
     out.resize(contacts);
     parallel_for(found_.size(), kSerialPairs, [&](std::size_t n) {
         const Found& found = found_[n];
-        if (found.corners > 0)
+        Contact* const first = out.data() + found.contact;
+        if (found.corners.count > 0)
             emit_polygon(PairView(scene, pairs[pairs_to_measure_[n]]), rule, found.normal,
-                         std::span(found.batch->corners).subspan(found.corner, found.corners),
-                         out.data() + found.contact + found.count);
-        if (found.seats > 0)
+                         found.corners.of(found.batch->corners), first + found.candidates.count);
+        if (found.seats.count > 0)
             emit_deep_seats(PairView(scene, pairs[pairs_to_measure_[n]]), rule,
-                            std::span(found.batch->seats).subspan(found.seat, found.seats),
-                            out.data() + found.contact + found.count);
-        if (found.count > 0)
+                            found.seats.of(found.batch->seats), first + found.candidates.count);
+        if (found.candidates.count > 0)
             make_contacts(PairView(scene, pairs[pairs_to_measure_[n]]),
-                          std::span(found.batch->candidates).subspan(found.first, found.count),
-                          out.data() + found.contact);
+                          found.candidates.of(found.batch->candidates), first);
     });
 }
 

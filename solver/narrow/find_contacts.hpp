@@ -67,12 +67,11 @@ private:
     // Results of a pair: a part of one thread's results.
     struct Found {
         const FoundBatch* batch = nullptr;
-        std::size_t first = 0, count = 0;     // candidates that are contacts
-        std::size_t corner = 0, corners = 0;  // or corners of a polygon that are
-        std::size_t seat = 0, seats = 0;      // or deep seats
-        Vec3 normal = Vec3::Zero();           // the polygon's
-        std::size_t sphere = 0, spheres = 0;  // newly listed spheres
-        std::size_t contact = 0;              // where they begin among all pairs' contacts
+        FoundPart candidates;        // that are contacts
+        FoundPart corners, seats;    // further contacts: corners of a polygon, or deep seats
+        Vec3 normal = Vec3::Zero();  // the polygon's
+        FoundPart spheres;           // newly listed
+        std::size_t contact = 0;     // where its contacts begin among those of all pairs
     };
     // Time step [s], margin [m], and the gap up to which a pair's contacts count in the step [m].
     struct Within {
@@ -85,7 +84,7 @@ private:
     // Contacts of row k from its neighbour list, which is made anew where its skin is used up.
     void find_listed(const Scene& scene, BodyPair pair, std::size_t k, const MotionBounds& motion,
                      const Within& within, Found& found, FoundBatch& batch);
-    // These append the contacts of the pair at hand to the thread's results.
+    // These append what was found for the pair at hand to the thread's results.
     static void keep_polygon(Found& found, FoundBatch& batch);
     static void keep_seats(Found& found, FoundBatch& batch);
     static void keep_candidates(Found& found, FoundBatch& batch);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "solver/narrow/contact_polygon.hpp"
@@ -9,6 +11,23 @@
 #include "solver/narrow/search_pair.hpp"
 
 namespace ice {
+
+/// A pair's part of one of FoundBatch's lists.
+struct FoundPart {
+    std::size_t first = 0, count = 0;
+
+    /// Appends what was found for a pair to the thread's list.
+    template <class T>
+    static FoundPart append(const std::vector<T>& found, std::vector<T>& list) {
+        const FoundPart out{list.size(), found.size()};
+        list.insert(list.end(), found.begin(), found.end());
+        return out;
+    }
+    template <class T>
+    std::span<const T> of(const std::vector<T>& list) const {
+        return std::span(list).subspan(first, count);
+    }
+};
 
 /// What one thread finds for its pairs, one pair after the other, and its work memory. Stored by
 /// thread: lists by pair would all grow to the largest pair's size.

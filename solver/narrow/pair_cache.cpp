@@ -22,10 +22,6 @@ constexpr double kLookAhead = 5.0;                          // steps [-]
 constexpr double kLeastAngle = 0.0075, kMostAngle = 0.015;  // [rad]
 constexpr double kLeastShare = 0.3, kMostShare = 0.6;       // of the ice's radius
 
-// Below this many entries [-], rows that are no longer in use cost less than closing the gaps. Only
-// the time depends on it.
-constexpr std::size_t kFewestListed = 4096;
-
 // Relative motion and rotation [rad] of a pair since b had the pose (rotation, translation) in a's
 // axes. |R - R0| is sqrt(8) sin(angle / 2), below half a radian at least 0.99 sqrt(2) angle.
 Skin relative_motion(const PairView& view, const Mat3& rotation, const Vec3& translation) {
@@ -37,18 +33,7 @@ Skin relative_motion(const PairView& view, const Mat3& rotation, const Vec3& tra
 }  // namespace
 
 void PairCache::carry_over(const std::vector<BodyPair>& pairs) {
-    if (pairs == pairs_) return;
-    moved_.assign(pairs.size(), Row{});
-    kept_ = 0;
-    // both lists are sorted: one walk finds the rows that stay
-    std::size_t old = 0;
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-        while (old < pairs_.size() && pairs_[old] < pairs[k]) ++old;
-        if (old < pairs_.size() && pairs_[old] == pairs[k]) moved_[k] = rows_[old];
-        kept_ += moved_[k].count;
-    }
-    rows_.swap(moved_);
-    pairs_ = pairs;
+    if (pairs != lists_.pairs()) lists_.carry_over(pairs, [](std::size_t, std::size_t) {});
 }
 
 void PairCache::forget(const std::vector<std::int32_t>& bodies) {
@@ -56,37 +41,14 @@ void PairCache::forget(const std::vector<std::int32_t>& bodies) {
     const auto is_one = [&](std::int32_t body) {
         return std::binary_search(bodies.begin(), bodies.end(), body);
     };
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-        if (!is_one(pairs_[k].a) && !is_one(pairs_[k].b)) continue;
-        kept_ -= rows_[k].count;
-        rows_[k] = Row{};
-    }
-}
-
-void PairCache::keep(std::size_t k, std::span<const SpherePair> near) {
-    Row& row = rows_[k];
-    kept_ += near.size() - row.count;
-    row.count = near.size();
-    row.first = listed_.size();
-    listed_.insert(listed_.end(), near.begin(), near.end());
-    // lists are appended; once most of the memory is abandoned it is closed up
-    if (listed_.size() > kFewestListed && listed_.size() > 2 * kept_) close_gaps();
-}
-
-void PairCache::close_gaps() {
-    moved_listed_.clear();
-    for (Row& row : rows_) {
-        const auto first = listed_.begin() + static_cast<std::ptrdiff_t>(row.first);
-        row.first = moved_listed_.size();
-        moved_listed_.insert(moved_listed_.end(), first,
-                             first + static_cast<std::ptrdiff_t>(row.count));
-    }
-    listed_.swap(moved_listed_);
+    const std::vector<BodyPair>& pairs = lists_.pairs();
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+        if (is_one(pairs[k].a) || is_one(pairs[k].b)) lists_.drop(k);
 }
 
 void PairCache::renew(std::size_t k, const PairView& view, const MotionBounds& motion,
                       const Skin& skin, double clearance) {
-    Row& row = rows_[k];
+    Row& row = lists_.row(k);
     row.rotation = view.rotation_ab;
     row.translation = view.translation_ab;
     row.crushed = motion.crushed(view.pair.a) + motion.crushed(view.pair.b);
@@ -113,7 +75,7 @@ void PairCache::set_clearances(Row& row, BodyPair pair, const MotionBounds& moti
 }
 
 void PairCache::set_seat_clearance(std::size_t k, const PairView& view, double clearance) {
-    Row& row = rows_[k];
+    Row& row = lists_.row(k);
     row.seat_rotation = view.rotation_ab;
     row.seat_translation = view.translation_ab;
     row.seat_clearance = clearance;
@@ -147,7 +109,7 @@ double PairCache::separation_of_solids(Row& row, const PairView& view, double en
 PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pair,
                                   const MotionBounds& motion, double dt, double margin,
                                   bool polygon) {
-    Row& row = rows_[k];
+    Row& row = lists_.row(k);
     // First without poses: the paths bound the motion since the last comparison.
     const double path = motion.path_after_step(pair.a) + motion.path_after_step(pair.b);
     if (path < std::min(row.path_clearance, row.path_stale) &&

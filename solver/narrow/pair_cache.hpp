@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/broad/find_pairs.hpp"
+#include "solver/narrow/appended_lists.hpp"
 #include "solver/narrow/feature_pair_bound.hpp"
 #include "solver/narrow/pair_view.hpp"
 #include "solver/narrow/separating_axis.hpp"
@@ -44,16 +45,14 @@ public:
                 double dt, double margin, bool polygon);
 
     /// The separating axes of row k's solids. @pre state() returned State::polygon
-    const SeparatingAxes& axes(std::size_t k) const { return rows_[k].axes; }
+    const SeparatingAxes& axes(std::size_t k) const { return lists_.row(k).axes; }
 
     /// Spheres of row k that may touch; valid until the next keep() or carry_over().
-    std::span<const SpherePair> listed(std::size_t k) const {
-        return {listed_.data() + rows_[k].first, rows_[k].count};
-    }
+    std::span<const SpherePair> listed(std::size_t k) const { return lists_.listed(k); }
 
     /// May row k's solids overlap so far that spheres have lost each other (is_deep, DeepSeat)?
     /// @pre state() returned State::listed or State::stale
-    bool may_be_deep(std::size_t k) const { return rows_[k].deep; }
+    bool may_be_deep(std::size_t k) const { return lists_.row(k).deep; }
 
     /// No seat of row k lies deep before its bodies have moved by `clearance` [m] relative to each
     /// other (find_deep_seats). Different rows may be set at the same time.
@@ -65,8 +64,8 @@ public:
     void renew(std::size_t k, const PairView& view, const MotionBounds& motion, const Skin& skin,
                double clearance);
 
-    /// Stores the spheres of row k that may touch.
-    void keep(std::size_t k, std::span<const SpherePair> near);
+    /// Stores the spheres of row k that may touch. One thread at a time.
+    void keep(std::size_t k, std::span<const SpherePair> near) { lists_.keep(k, near); }
 
 private:
     struct Row {
@@ -80,9 +79,8 @@ private:
         // the relative motion is at most that sum. Until the pair may touch [m]; until it is stale
         // [m], [rad].
         double path_clearance = 0.0, path_stale = 0.0, rotation_stale = 0.0;
-        std::size_t axis = 0;              // of separation(), when last compared
-        SeparatingAxes axes;               // instead of it where the solids meet in a polygon
-        std::size_t first = 0, count = 0;  // of listed_
+        std::size_t axis = 0;  // of separation(), when last compared
+        SeparatingAxes axes;   // instead of it where the solids meet in a polygon
         bool deep = false;
         // Pose of b when its seats were last searched, and the relative motion from there before
         // one can lie deep [m]; negative: they must be searched in any case.
@@ -97,12 +95,11 @@ private:
                                double turned);
     // Relative motion of the pair before its seats must be searched [m].
     static double seat_clearance_left(const Row& row, const PairView& view, double apart);
-    void close_gaps();
 
-    std::vector<BodyPair> pairs_;
-    std::vector<Row> rows_, moved_;  // by pair
-    std::vector<SpherePair> listed_, moved_listed_;
-    std::size_t kept_ = 0;  // entries of listed_ that rows use
+    // Entries [-] up to which lists that are no longer in use cost less than closing the gaps.
+    static constexpr std::size_t kFewest = 4096;
+
+    AppendedLists<Row, SpherePair, kFewest> lists_;
 };
 
 /// The skin of a pair: its motion within five steps, between 0.3 and 0.6 of the ice's radius and

@@ -47,23 +47,17 @@ HWY_INLINE Vectors Turned(const Pose& pose, Vectors v) {
     return {Dot(pose.row[0], v), Dot(pose.row[1], v), Dot(pose.row[2], v)};
 }
 
-// Vectors of b in a's axes: turned once, instead of for each vector of a.
+// Vectors of b in a's axes: moved once, instead of for each vector of a.
 template <std::size_t kBlocks>
 struct Moved {
     VectorBlock blocks[kBlocks];
 
-    HWY_INLINE void Turn(const VectorBlocks& from, const Pose& pose) {
+    template <class Move>
+    HWY_INLINE void Fill(const VectorBlocks& from, const Move& move) {
         const Tag d;
         for (std::size_t k = 0; k < from.blocks().size(); ++k)
             for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(d))
-                Put(Turned(pose, Get(from.blocks()[k], lane)), blocks[k], lane);
-    }
-    HWY_INLINE void Place(const VectorBlocks& from, const Pose& pose) {
-        const Tag d;
-        for (std::size_t k = 0; k < from.blocks().size(); ++k)
-            for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(d))
-                Put(Add(Turned(pose, Get(from.blocks()[k], lane)), pose.translation), blocks[k],
-                    lane);
+                Put(move(Get(from.blocks()[k], lane)), blocks[k], lane);
     }
 };
 
@@ -181,7 +175,8 @@ SeparatingAxes FindAxes(const ConvexPiece& a, const ConvexPiece& b, const Relati
     // corners, and all pairs of edges. Any gap above `enough` ends the search: the
     // pair is apart.
     Moved<kMostCorners> moved;
-    moved.Place(b.corners, pose);
+    moved.Fill(b.corners,
+               [&](Vectors v) HWY_ATTR { return Add(Turned(pose, v), pose.translation); });
     const Widest face_a = GapOfPlanes(
         a.normals.blocks().data(), a.normals.size(),
         [&](std::size_t k, Vectors) HWY_ATTR { return hn::LoadU(d, a.offsets.data() + k); },
@@ -189,7 +184,7 @@ SeparatingAxes FindAxes(const ConvexPiece& a, const ConvexPiece& b, const Relati
     out.face_a = face_a.gap;
     out.plane_a = face_a.number;
     if (out.face_a > enough) return out;
-    moved.Turn(b.normals, pose);
+    moved.Fill(b.normals, [&](Vectors v) HWY_ATTR { return Turned(pose, v); });
     const Widest face_b = GapOfPlanes(
         moved.blocks, b.normals.size(),
         [&](std::size_t k, Vectors n) HWY_ATTR {

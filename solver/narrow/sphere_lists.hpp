@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/broad/find_pairs.hpp"
+#include "solver/narrow/appended_lists.hpp"
 #include "solver/narrow/touching_spheres.hpp"
 
 namespace ice {
@@ -24,37 +24,30 @@ public:
         double unit = 1.0;    ///< of the list [m]
 
         std::size_t axis = 0;  ///< of separation(), when last measured
-
-    private:
-        friend class SphereLists;
-        std::size_t first = 0, count = 0;  // of blocks_
     };
 
     /// Keeps the rows of pairs that are in the new list, too; both lists are sorted.
     void carry_over(const std::vector<BodyPair>& pairs);
 
     /// Row of the k-th pair of the last carry_over().
-    Row& row(std::size_t k) { return rows_[k]; }
+    Row& row(std::size_t k) { return lists_.row(k); }
 
     /// Pair k has no contact while the sum of its bodies' MotionBounds::path_after_step is less
     /// than this [m].
     double& clearance(std::size_t k) { return clearance_[k]; }
 
     /// Spheres of pair k that may touch; valid until the next keep() or carry_over().
-    std::span<const ListedSpheres> listed(std::size_t k) const {
-        return {blocks_.data() + rows_[k].first, rows_[k].count};
-    }
+    std::span<const ListedSpheres> listed(std::size_t k) const { return lists_.listed(k); }
+
     /// Replaces the spheres of pair k. One thread at a time.
-    void keep(std::size_t k, std::span<const ListedSpheres> listed);
+    void keep(std::size_t k, std::span<const ListedSpheres> listed) { lists_.keep(k, listed); }
 
 private:
-    void close_gaps();
+    // blocks [-] up to which gaps are left, some 100 kB
+    static constexpr std::size_t kFewest = 256;
 
-    std::vector<BodyPair> pairs_;
     std::vector<double> clearance_, moved_clearance_;  // by pair; all are read in every step
-    std::vector<Row> rows_, moved_rows_;               // by pair
-    std::vector<ListedSpheres> blocks_, moved_blocks_;
-    std::size_t kept_ = 0;  // of blocks_ that rows use
+    AppendedLists<Row, ListedSpheres, kFewest> lists_;
 };
 
 }  // namespace ice

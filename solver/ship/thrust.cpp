@@ -4,19 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ice {
+#include "common/base/interpolate.hpp"
 
-double value_at(const SpeedCurve& curve, double speed) {
-    if (curve.empty()) return 0.0;
-    if (speed <= curve.front().first) return curve.front().second;
-    if (speed > curve.back().first) return curve.back().second;
-    // linear between two rows, constant before the first and after the last
-    const auto after = std::lower_bound(curve.begin(), curve.end(), speed,
-                                        [](const auto& row, double u) { return row.first < u; });
-    const auto& [u0, f0] = *(after - 1);
-    const auto& [u1, f1] = *after;
-    return f0 + (f1 - f0) * (speed - u0) / (u1 - u0);
-}
+namespace ice {
 
 double bollard_pull(const Propulsion& p) {
     if (!std::isnan(p.bollard_pull)) return p.bollard_pull;
@@ -29,7 +19,7 @@ double bollard_pull(const Propulsion& p) {
 
 double thrust_at(const Propulsion& p, double speed) {
     if (!std::isnan(p.thrust)) return p.thrust;
-    if (!p.thrust_table.empty()) return value_at(p.thrust_table, speed);
+    if (!p.thrust_table.empty()) return interpolate(p.thrust_table, speed);
     const double pull = bollard_pull(p);
     if (pull == 0.0 || speed < 0.0) return pull;
     // (S2); astern, the bollard pull
@@ -38,7 +28,8 @@ double thrust_at(const Propulsion& p, double speed) {
 }
 
 double open_water_resistance(const Propulsion& p, double speed) {
-    const double size = value_at(p.resistance_table, std::abs(speed));
+    const SpeedCurve& table = p.resistance_table;
+    const double size = table.empty() ? 0.0 : interpolate(table, std::abs(speed));
     return speed < 0.0 ? -size : size;
 }
 

@@ -6,9 +6,6 @@
 
 namespace ice {
 
-/// A curve at a speed U [m/s]: linear between its rows, constant outside; 0 for no rows.
-double value_at(const SpeedCurve& curve, double speed);
-
 /// Thrust at rest [N]: bollard_pull, which wins over power, or from power P_D [W] and propeller
 /// diameter D [m]
 ///

@@ -78,6 +78,14 @@ struct Cut {
     }
     HWY_INLINE Mask AnyInside() const { return hn::Or(hn::Or(in0, in1), in2); }
     HWY_INLINE Mask AllInside() const { return hn::And(hn::And(in0, in1), in2); }
+    // Of the values v0, v1, v2 at the corners that at the apex. v1, v2, v0 give that at the next
+    // corner after it, v2, v0, v1 that at the last.
+    HWY_INLINE Lanes AtApex(Lanes v0, Lanes v1, Lanes v2) const {
+        return hn::IfThenElse(first, v0, hn::IfThenElse(second, v1, v2));
+    }
+    HWY_INLINE Vectors AtApex(Vectors v0, Vectors v1, Vectors v2) const {
+        return Choose(first, v0, Choose(second, v1, v2));
+    }
 };
 
 // The cut-off tip: value at the apex, shares of the two edges from there that are on its side.
@@ -85,21 +93,57 @@ struct Tip {
     Lanes z, next, last;
     Mask inside;
 
-    HWY_INLINE explicit Tip(const Cut& h)
-        : z(hn::IfThenElse(h.first, h.z0, hn::IfThenElse(h.second, h.z1, h.z2))) {
-        const Lanes zq = hn::IfThenElse(h.first, h.z1, hn::IfThenElse(h.second, h.z2, h.z0));
-        const Lanes zr = hn::IfThenElse(h.first, h.z2, hn::IfThenElse(h.second, h.z0, h.z1));
-        next = hn::Div(z, hn::Sub(z, zq));
-        last = hn::Div(z, hn::Sub(z, zr));
+    HWY_INLINE explicit Tip(const Cut& h) : z(h.AtApex(h.z0, h.z1, h.z2)) {
+        next = hn::Div(z, hn::Sub(z, h.AtApex(h.z1, h.z2, h.z0)));
+        last = hn::Div(z, hn::Sub(z, h.AtApex(h.z2, h.z0, h.z1)));
         inside =
             hn::Or(hn::And(h.first, h.in0),
                    hn::Or(hn::And(h.second, h.in1), hn::AndNot(hn::Or(h.first, h.second), h.in2)));
     }
+    // Positive where the tip is inside, negative where it is taken off the whole.
+    HWY_INLINE Lanes Signed(Lanes size) const {
+        return hn::IfThenElse(inside, size, hn::Neg(size));
+    }
+    // signed share of the triangle's area that the tip has
+    HWY_INLINE Lanes Size() const { return Signed(hn::Mul(next, last)); }
 };
 
 // Does the whole triangle count, with or without a tip?
 HWY_INLINE Mask CountsWhole(const Cut& cut, const Tip& tip) {
     return hn::Or(hn::AndNot(cut.any, cut.in0), hn::AndNot(tip.inside, cut.any));
+}
+
+// The value at a share of the edge from one corner to another.
+HWY_INLINE Lanes OnEdge(Lanes from, Lanes to, Lanes share) {
+    return hn::Add(from, hn::Mul(share, hn::Sub(to, from)));
+}
+HWY_INLINE Vectors OnEdge(Vectors from, Vectors to, Lanes share) {
+    return Add(from, Scale(share, Sub(to, from)));
+}
+
+// A quantity that is linear on triangles, from its values at the corners: at those of the part on
+// the apex' side of the cut, the apex and the points in which the cut crosses its two edges.
+template <class T>
+HWY_INLINE void OnTip(const Cut& cut, const Tip& tip, const T (&of)[3], T (&out)[3]) {
+    out[0] = cut.AtApex(of[0], of[1], of[2]);
+    out[1] = OnEdge(out[0], cut.AtApex(of[1], of[2], of[0]), tip.next);
+    out[2] = OnEdge(out[0], cut.AtApex(of[2], of[0], of[1]), tip.last);
+}
+
+// Adds an integral over the part of triangles that is inside; add_inside() of cut_triangle.hpp.
+// @param count     the triangles whose sums are read
+// @param integral  over the whole of triangles, in units of their area; its mask is as `count`
+template <class T, class Integral, class Sums>
+HWY_INLINE void AddInside(const Cut& cut, Mask count, const T& t, const Integral& integral,
+                          Sums& sums) {
+    const Tag d;
+    if (hn::AllFalse(d, hn::And(count, cut.AnyInside()))) return;
+    const Tip tip(cut);
+    const Mask whole = CountsWhole(cut, tip);
+    if (!hn::AllFalse(d, hn::And(count, whole)))
+        sums.AddOnly(whole, hn::Set(d, 1.0), integral(t, whole));
+    if (hn::AllFalse(d, hn::And(count, cut.any))) return;
+    sums.AddOnly(cut.any, tip.Size(), integral(T(t, cut, tip), cut.any));
 }
 
 // Heights of the three corners.
@@ -123,10 +167,9 @@ HWY_INLINE Vectors WholeMoments(const Cut& h, const Corners& corner, Lanes area,
 
 // The corners' sum of the cut-off tips, and the apex once more: only its height is not 0.
 HWY_INLINE Vectors TipCorners(const Cut& h, const Tip& tip, const Corners& corner) {
-    const auto from = [&](int a, int b, int c) HWY_ATTR {
-        return Choose(h.first, corner.p[a], Choose(h.second, corner.p[b], corner.p[c]));
-    };
-    const Vectors p = from(0, 1, 2), q = from(1, 2, 0), r = from(2, 0, 1);
+    const Vectors(&c)[3] = corner.p;
+    const Vectors p = h.AtApex(c[0], c[1], c[2]), q = h.AtApex(c[1], c[2], c[0]),
+                  r = h.AtApex(c[2], c[0], c[1]);
     return Add(Scale(hn::Set(Tag(), 4.0), p),
                Add(Scale(tip.next, Sub(q, p)), Scale(tip.last, Sub(r, p))));
 }
@@ -147,7 +190,7 @@ struct Wetted {
         first = ice::HWY_NAMESPACE::Add(first, Only(whole, WholeMoments(h, corner, area, sum)));
         if (hn::AllFalse(d, h.any)) return;
         const Lanes size = hn::Mul(hn::Mul(tip.next, tip.last), hn::Mul(area, tip.z));
-        const Lanes part = hn::IfThenElse(tip.inside, size, hn::Neg(size));
+        const Lanes part = tip.Signed(size);
         volume = hn::Add(volume, hn::IfThenElseZero(h.any, part));
         first =
             ice::HWY_NAMESPACE::Add(first, Only(h.any, Scale(part, TipCorners(h, tip, corner))));

@@ -30,18 +30,8 @@ struct Triangles {
     }
     // The part on the apex' side of the cut, with the area of the whole.
     HWY_INLINE Triangles(const Triangles& t, const Cut& cut, const Tip& tip) {
-        const auto from = [&](int a, int b, int c) HWY_ATTR {
-            return Choose(cut.first, t.p[a], Choose(cut.second, t.p[b], t.p[c]));
-        };
-        const auto flow = [&](int a, int b, int c) HWY_ATTR {
-            return hn::IfThenElse(cut.first, t.f[a], hn::IfThenElse(cut.second, t.f[b], t.f[c]));
-        };
-        p[0] = from(0, 1, 2);
-        p[1] = Add(p[0], Scale(tip.next, Sub(from(1, 2, 0), p[0])));
-        p[2] = Add(p[0], Scale(tip.last, Sub(from(2, 0, 1), p[0])));
-        f[0] = flow(0, 1, 2);
-        f[1] = hn::Add(f[0], hn::Mul(tip.next, hn::Sub(flow(1, 2, 0), f[0])));
-        f[2] = hn::Add(f[0], hn::Mul(tip.last, hn::Sub(flow(2, 0, 1), f[0])));
+        OnTip(cut, tip, t.p, p);
+        OnTip(cut, tip, t.f, f);
     }
 };
 
@@ -52,23 +42,16 @@ struct Facing {
 
     HWY_INLINE Facing() : flow(hn::Zero(Tag())), first(Zero()), square(Zero()), mixed(Zero()) {}
 
-    // Adds m where `which`.
-    HWY_INLINE void AddOnly(Mask which, const Facing& m) {
-        flow = hn::Add(flow, hn::IfThenElseZero(which, m.flow));
-        first = Add(first, Only(which, m.first));
-        square = Add(square, Only(which, m.square));
-        mixed = Add(mixed, Only(which, m.mixed));
-    }
-    HWY_INLINE Facing Times(Lanes s) const {
-        Facing out;
-        out.flow = hn::Mul(s, flow);
-        out.first = Scale(s, first);
-        out.square = Scale(s, square);
-        out.mixed = Scale(s, mixed);
-        return out;
+    // Adds m by a factor where `which`.
+    HWY_INLINE void AddOnly(Mask which, Lanes factor, const Facing& m) {
+        flow = hn::Add(flow, hn::IfThenElseZero(which, hn::Mul(factor, m.flow)));
+        first = Add(first, Only(which, Scale(factor, m.first)));
+        square = Add(square, Only(which, Scale(factor, m.square)));
+        mixed = Add(mixed, Only(which, Scale(factor, m.mixed)));
     }
 };
 
+// Over all of the triangles; integrate_whole() of wetted_sums_reference.cpp.
 HWY_INLINE Facing IntegrateWhole(const Triangles& t) {
     const Tag d;
     Facing out;
@@ -76,6 +59,7 @@ HWY_INLINE Facing IntegrateWhole(const Triangles& t) {
     const Vectors sum = Add(Add(t.p[0], t.p[1]), t.p[2]);
     const Vectors g = Add(Add(Scale(t.f[0], t.p[0]), Scale(t.f[1], t.p[1])), Scale(t.f[2], t.p[2]));
     out.first = Add(Scale(out.flow, sum), g);
+    // (F + 2 f) p at each corner, then the sums of wetted_sums.hpp, component by component
     Vectors e[3];
     for (int k = 0; k < 3; ++k)
         e[k] = Scale(hn::Add(out.flow, hn::Mul(hn::Set(d, 2.0), t.f[k])), t.p[k]);
@@ -91,35 +75,38 @@ HWY_INLINE Facing IntegrateWhole(const Triangles& t) {
     return out;
 }
 
-HWY_INLINE Lanes SizeOf(const Tip& tip) {
-    const Lanes size = hn::Mul(tip.next, tip.last);
-    return hn::IfThenElse(tip.inside, size, hn::Neg(size));
-}
+// IntegrateWhole() as the integral of AddInside().
+struct OverWhole {
+    template <class T>
+    HWY_INLINE auto operator()(const T& t, Mask) const {
+        return IntegrateWhole(t);
+    }
+};
 
-// Over the part where the flow comes from outside. @param of  the triangles that count
-HWY_INLINE Facing IntegratePart(const Triangles& t, Mask of) {
-    const Tag d;
-    const Lanes zero = hn::Zero(d);
+// Over the part where the flow t.f comes from outside. @param count  the triangles whose sums are
+// read
+template <class T>
+HWY_INLINE auto IntegratePart(const T& t, Mask count) {
+    const Lanes zero = hn::Zero(Tag());
     const Cut cut(t.f[0], t.f[1], t.f[2], hn::Gt(t.f[0], zero), hn::Gt(t.f[1], zero),
                   hn::Gt(t.f[2], zero));
-    Facing out;
-    if (hn::AllFalse(d, hn::And(of, cut.AnyInside()))) return out;
-    const Tip tip(cut);
-    const Mask whole = CountsWhole(cut, tip);
-    if (!hn::AllFalse(d, hn::And(of, whole))) out.AddOnly(whole, IntegrateWhole(t));
-    if (hn::AllFalse(d, hn::And(of, cut.any))) return out;
-    out.AddOnly(cut.any, IntegrateWhole(Triangles(t, cut, tip)).Times(SizeOf(tip)));
+    decltype(IntegrateWhole(t)) out;
+    AddInside(cut, count, t, OverWhole(), out);
     return out;
 }
 
-// Adds what flows in through the wetted part of triangles that the water cuts so.
-HWY_INLINE void AddWetted(const Cut& h, const Triangles& t, Facing& sum) {
-    const Tag d;
-    const Tip tip(h);
-    const Mask whole = CountsWhole(h, tip);
-    if (!hn::AllFalse(d, whole)) sum.AddOnly(whole, IntegratePart(t, whole));
-    if (hn::AllFalse(d, h.any)) return;
-    sum.AddOnly(h.any, IntegratePart(Triangles(t, h, tip), h.any).Times(SizeOf(tip)));
+// IntegratePart() as the integral of AddInside().
+struct OverPart {
+    template <class T>
+    HWY_INLINE auto operator()(const T& t, Mask count) const {
+        return IntegratePart(t, count);
+    }
+};
+
+// Adds IntegratePart() of the wetted part. @param h  how the water cuts the triangles
+template <class T, class Sums>
+HWY_INLINE void AddWetted(const Cut& h, const T& t, Sums& sums) {
+    AddInside(h, h.AnyInside(), t, OverPart(), sums);
 }
 
 // wetted_share()

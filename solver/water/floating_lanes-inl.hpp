@@ -97,6 +97,7 @@ HWY_INLINE FloatingWetted IntegrateFloating(const FormHeights& heights) {
     VectorParts first;
     FloatingWetted out;
     out.any_wet = out.any_dry = hn::FirstN(d, 0);
+    // facets of one lane of the blocks first, then the lanes: the reference's order of sums
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         Wetted sum;
         for (std::size_t k = 0; k < BlocksWith(facets, lane); ++k) {
@@ -115,12 +116,13 @@ HWY_INLINE FloatingWetted IntegrateFloating(const FormHeights& heights) {
     return out;
 }
 
-// FacingIntegrals of each body.
+// FacingIntegrals of each body in a flow v + w x p, body axes.
 HWY_INLINE Facing IntegrateFloatingFacing(const FormHeights& heights, Vectors v, Vectors w) {
     const Tag d;
     const FacetBlocks& facets = heights.Facets();
     Parts flow;
     VectorParts first, square, mixed;
+    // the order of sums of IntegrateFloating()
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         Facing sum;
         for (std::size_t k = 0; k < BlocksWith(facets, lane); ++k) {

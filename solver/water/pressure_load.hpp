@@ -18,6 +18,7 @@ namespace ice {
 /// @param height    z of the body origin [m]
 /// @param pressure  [Pa] at a point of the body [m], body axes; that of water at rest is
 ///                  buoyancy's and left out
+/// @pre the shape is a floe's: its edges are known
 WaterLoad pressure_load(const Shape& shape, const Mat3& rotation, double height,
                         const std::function<double(const Vec3&)>& pressure);
 

@@ -24,11 +24,7 @@ struct Triangle {
 
 // The part on the apex' side of the cut, with the area of the whole.
 Triangle tip_of(const Triangle& t, const Cut& cut) {
-    const std::size_t a = cut.apex, b = (a + 1) % 3, c = (a + 2) % 3;
-    const double s = cut.part(1), r = cut.part(2);
-    return {{t.p[a], t.p[a] + s * (t.p[b] - t.p[a]), t.p[a] + r * (t.p[c] - t.p[a])},
-            {t.u[a], t.u[a] + s * (t.u[b] - t.u[a]), t.u[a] + r * (t.u[c] - t.u[a])},
-            {t.f[a], t.f[a] + s * (t.f[b] - t.f[a]), t.f[a] + r * (t.f[c] - t.f[a])}};
+    return {on_tip(t.p, cut), on_tip(t.u, cut), on_tip(t.f, cut)};
 }
 
 // 12, 60 and 60 times int f u, int f p x u and int f u . u.
@@ -65,13 +61,6 @@ Sums integrate_whole(const Triangle& t) {
     return out;
 }
 
-// Over the part where the water comes from outside.
-Sums integrate_part(const Triangle& t) {
-    return integrate_facing<Sums>(
-        t, [](const Triangle& all) { return integrate_whole(all); },
-        [](const Triangle& all, const Cut& cut) { return tip_of(all, cut); });
-}
-
 // The body's velocity relative to the water, at points of the body.
 class Relative {
 public:
@@ -85,46 +74,21 @@ private:
     const std::function<Vec3(const Vec3&)>& water_;
 };
 
-// Over the wetted part of one quarter. @param z  heights of its corners over the water
-void add_wetted(const Triangle& t, const std::array<double, 3>& z, Sums& sums) {
-    const Cut h(z, {wet(z[0]), wet(z[1]), wet(z[2])});
-    if (h.counts_whole()) sums.add(1.0, integrate_part(t));
-    if (!h.any) return;
-    const double size = h.part(1) * h.part(2);
-    sums.add(h.tip_is_inside() ? size : -size, integrate_part(tip_of(t, h)));
-}
-
 // @param u  relative to the water: at the vertices and, numbered behind them, at the edges' middles
-Sums integrate(const Shape& shape, const WaterPlane& plane, const std::vector<Vector>& u) {
-    const auto height = [&](const Vec3& p) { return dot(get(plane.up), get(p)) + plane.height; };
+Sums integrate(const Shape& shape, const WaterPlane& water, const std::vector<Vector>& u) {
     Sums sums;
     for (std::size_t n = 0; n < shape.mesh.triangles.size(); ++n) {
-        std::array<std::size_t, 6> place;  // corners, then the middles of the edges behind them
-        std::array<Vec3, 6> p;
-        std::array<double, 6> z, f;
-        for (std::size_t k = 0; k < 3; ++k) {
-            place[k] = static_cast<std::size_t>(shape.mesh.triangles[n][k]);
-            place[3 + k] = shape.mesh.vertices.size() +
-                           static_cast<std::size_t>(shape.edges.of_triangle[n][k]);
-            p[k] = shape.mesh.vertices[place[k]];
-            z[k] = height(p[k]);
-        }
-        if (!wet(z[0]) && !wet(z[1]) && !wet(z[2])) continue;
-        for (std::size_t k = 0; k < 3; ++k) {
-            p[3 + k] = 0.5 * (p[k] + p[(k + 1) % 3]);
-            z[3 + k] = height(p[3 + k]);
-        }
-        const FacetBlock& block = shape.facets.blocks[n / FacetBlock::kLanes];
-        const std::size_t lane = n % FacetBlock::kLanes;
-        // (25): the flow is linear over the quarters that the edges' middles make of a triangle
-        const Vector quarter =
-            0.25 * Vector{block.area[0][lane], block.area[1][lane], block.area[2][lane]};
-        for (std::size_t k = 0; k < 6; ++k) f[k] = dot(quarter, u[place[k]]);
-        for (const auto& [a, b, c] : kQuarters)
-            add_wetted({{get(p[a]), get(p[b]), get(p[c])},
-                        {u[place[a]], u[place[b]], u[place[c]]},
-                        {f[a], f[b], f[c]}},
-                       {z[a], z[b], z[c]}, sums);
+        const Quarters quarters(shape, water, n);
+        if (!quarters.any_corner_wet()) continue;
+        // (25): the flow is linear over each quarter
+        const std::array<Vector, 6> at = quarters.points.pick(u);
+        std::array<double, 6> f;
+        for (std::size_t k = 0; k < 6; ++k) f[k] = dot(quarters.area, at[k]);
+        for (const Quarter& quarter : kQuarters)
+            add_wetted(quarters.cut_of(quarter),
+                       Triangle{Quarters::pick(quarters.p, quarter), Quarters::pick(at, quarter),
+                                Quarters::pick(f, quarter)},
+                       sums);
     }
     return sums;
 }
@@ -137,11 +101,13 @@ RelativeDrag relative_drag(const Shape& shape, const Motion& motion,
     RelativeDrag out;
     const Relative relative(ordered_transposed(motion.rotation, motion.velocity),
                             ordered_transposed(motion.rotation, motion.angular_velocity), water);
-    static thread_local std::vector<Vector> u;
-    u.clear();
+    // A vertex belongs to some six triangles, an edge to two: the water's velocity there, a look-up
+    // in the flow's table, is computed once.
+    std::vector<Vector> u;
     for (const Vec3& vertex : shape.mesh.vertices) u.push_back(relative.at(vertex));
     for (const Vec3& middle : shape.edges.middle) u.push_back(relative.at(middle));
     const Sums sums = integrate(shape, WaterPlane(motion.rotation, motion.height), u);
+    // (24): the factors of the exact integrals, and the turn to world axes, once for all triangles
     const double factor = -0.5 * water_density * coefficient;
     const Mat3 turn = factor * motion.rotation;
     const Vec3 force(sums.force.x / 12.0, sums.force.y / 12.0, sums.force.z / 12.0);

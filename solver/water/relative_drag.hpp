@@ -2,7 +2,6 @@
 /// Drag in water that moves: docs/method.md, section 6.
 #pragma once
 
-#include <array>
 #include <functional>
 
 #include "solver/water/drag.hpp"
@@ -28,12 +27,9 @@ struct RelativeDrag : WaterLoad {
 /// @param water          the water's velocity [m/s] at a point of the body [m], both in body axes
 /// @param coefficient    C_d [-]
 /// @param water_density  rho_w [kg/m3]
+/// @pre the shape is a floe's: its edges are known
 RelativeDrag relative_drag(const Shape& shape, const Motion& motion,
                            const std::function<Vec3(const Vec3&)>& water, double coefficient,
                            double water_density);
-
-/// A triangle's quarters by its corners 0 to 2 and the middles 3 to 5 of the edges behind them.
-constexpr std::array<std::array<std::size_t, 3>, 4> kQuarters{
-    {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
 
 }  // namespace ice

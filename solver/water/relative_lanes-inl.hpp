@@ -9,8 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include "solver/water/floating_lanes-inl.hpp"
-#include "solver/water/relative_drag.hpp"
+#include "solver/water/quarters_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
@@ -24,22 +23,9 @@ struct RelativeTriangles {
     RelativeTriangles() = default;
     // The part on the apex' side of the cut, with the area of the whole.
     HWY_INLINE RelativeTriangles(const RelativeTriangles& t, const Cut& cut, const Tip& tip) {
-        const auto part = [&](const Vectors(&of)[3], Vectors(&out)[3]) HWY_ATTR {
-            const auto from = [&](int a, int b, int c) HWY_ATTR {
-                return Choose(cut.first, of[a], Choose(cut.second, of[b], of[c]));
-            };
-            out[0] = from(0, 1, 2);
-            out[1] = Add(out[0], Scale(tip.next, Sub(from(1, 2, 0), out[0])));
-            out[2] = Add(out[0], Scale(tip.last, Sub(from(2, 0, 1), out[0])));
-        };
-        part(t.p, p);
-        part(t.u, u);
-        const auto flow = [&](int a, int b, int c) HWY_ATTR {
-            return hn::IfThenElse(cut.first, t.f[a], hn::IfThenElse(cut.second, t.f[b], t.f[c]));
-        };
-        f[0] = flow(0, 1, 2);
-        f[1] = hn::Add(f[0], hn::Mul(tip.next, hn::Sub(flow(1, 2, 0), f[0])));
-        f[2] = hn::Add(f[0], hn::Mul(tip.last, hn::Sub(flow(2, 0, 1), f[0])));
+        OnTip(cut, tip, t.p, p);
+        OnTip(cut, tip, t.u, u);
+        OnTip(cut, tip, t.f, f);
     }
 };
 
@@ -56,6 +42,7 @@ struct RelativeSums {
     }
 };
 
+// Over all of the triangles; integrate_whole() of relative_drag.cpp.
 HWY_INLINE RelativeSums IntegrateWhole(const RelativeTriangles& t) {
     RelativeSums out;
     const Lanes flow = hn::Add(hn::Add(t.f[0], t.f[1]), t.f[2]), two = hn::Set(Tag(), 2.0);
@@ -66,6 +53,7 @@ HWY_INLINE RelativeSums IntegrateWhole(const RelativeTriangles& t) {
     const Vectors sum_u = Add(Add(t.u[0], t.u[1]), t.u[2]);
     const Vectors base_p = Add(Scale(flow, sum_p), weighted(t.p));
     const Vectors base_u = Add(Scale(flow, sum_u), weighted(t.u));
+    // int f g h = 1/60 sum_k h_k e_k, with e_k as in the reference
     out.force = base_u;
     for (int k = 0; k < 3; ++k) {
         const Lanes own = hn::Add(flow, hn::Mul(two, t.f[k]));
@@ -77,72 +65,28 @@ HWY_INLINE RelativeSums IntegrateWhole(const RelativeTriangles& t) {
     return out;
 }
 
-HWY_INLINE RelativeSums IntegratePart(const RelativeTriangles& t, Mask of) {
-    const Tag d;
-    const Lanes zero = hn::Zero(d);
-    const Cut cut(t.f[0], t.f[1], t.f[2], hn::Gt(t.f[0], zero), hn::Gt(t.f[1], zero),
-                  hn::Gt(t.f[2], zero));
-    RelativeSums out;
-    if (hn::AllFalse(d, hn::And(of, cut.AnyInside()))) return out;
-    const Tip tip(cut);
-    const Mask whole = CountsWhole(cut, tip);
-    if (!hn::AllFalse(d, hn::And(of, whole)))
-        out.AddOnly(whole, hn::Set(d, 1.0), IntegrateWhole(t));
-    if (hn::AllFalse(d, hn::And(of, cut.any))) return out;
-    out.AddOnly(cut.any, SizeOf(tip), IntegrateWhole(RelativeTriangles(t, cut, tip)));
-    return out;
-}
-
-// Over the wetted part of quarters. @param h  how the water cuts them
-HWY_INLINE void AddWetted(const Cut& h, const RelativeTriangles& t, RelativeSums& sums) {
-    const Tag d;
-    if (hn::AllFalse(d, h.AnyInside())) return;
-    const Tip tip(h);
-    const Mask whole = CountsWhole(h, tip);
-    if (!hn::AllFalse(d, whole)) sums.AddOnly(whole, hn::Set(d, 1.0), IntegratePart(t, whole));
-    if (hn::AllFalse(d, h.any)) return;
-    sums.AddOnly(h.any, SizeOf(tip), IntegratePart(RelativeTriangles(t, h, tip), h.any));
-}
-
 // Over the wetted surface. @param u  relative to the water, body axes: at the vertices and,
 // numbered behind them, at the middles of the edges
 template <class Relative>
-HWY_INLINE RelativeSums IntegrateRelative(const Shape& form, const Water& water,
+HWY_INLINE RelativeSums IntegrateRelative(const Shape& shape, const Water& water,
                                           const Relative& u) {
-    const Tag d;
     RelativeSums sums;
-    for (std::size_t n = 0; n < form.mesh.triangles.size(); ++n) {
-        Vec3 p[6];
-        Lanes z[6], f[6];
+    for (std::size_t n = 0; n < shape.mesh.triangles.size(); ++n) {
+        const Quarters quarters(shape, water, n);
+        if (!quarters.AnyCornerWet()) continue;
+        // (25): the flow is linear over each quarter
+        Lanes f[6];
         Vectors at[6];
-        std::size_t place[6];
-        for (std::size_t k = 0; k < 3; ++k) {
-            place[k] = static_cast<std::size_t>(form.mesh.triangles[n][k]);
-            place[3 + k] =
-                form.mesh.vertices.size() + static_cast<std::size_t>(form.edges.of_triangle[n][k]);
-            p[k] = form.mesh.vertices[place[k]];
-            z[k] = water.HeightOf(Set(p[k]));
-        }
-        if (hn::AllFalse(d, CutByWater({z[0], z[1], z[2]}).AnyInside())) continue;
-        const Vectors quarter =
-            Scale(hn::Set(d, 0.25), SetOf(form.facets.blocks[n / kLanes].area, n % kLanes));
-        for (std::size_t k = 0; k < 3; ++k) {
-            p[3 + k] = 0.5 * (p[k] + p[(k + 1) % 3]);
-            z[3 + k] = water.HeightOf(Set(p[3 + k]));
-        }
         for (std::size_t k = 0; k < 6; ++k) {
-            at[k] = u.At(place[k]);
-            f[k] = Dot(quarter, at[k]);
+            at[k] = u.At(quarters.points.place[k]);
+            f[k] = Dot(quarters.area, at[k]);
         }
-        for (const auto& [i, j, k] : kQuarters) {
+        for (const Quarter& quarter : kQuarters) {
             RelativeTriangles t;
-            const std::size_t of[3] = {i, j, k};
-            for (std::size_t m = 0; m < 3; ++m) {
-                t.p[m] = Set(p[of[m]]);
-                t.u[m] = at[of[m]];
-                t.f[m] = f[of[m]];
-            }
-            AddWetted(CutByWater({z[i], z[j], z[k]}), t, sums);
+            Pick(quarters.p, quarter, t.p);
+            Pick(at, quarter, t.u);
+            Pick(f, quarter, t.f);
+            AddWetted(quarters.CutOf(quarter), t, sums);
         }
     }
     return sums;

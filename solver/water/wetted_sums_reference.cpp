@@ -34,16 +34,16 @@ struct VectorSum {
     Vec3 totals() const { return {total(x), total(y), total(z)}; }
 };
 
-Cut cut_by_water(const FacetBlock& block, std::size_t lane, const WaterPlane& water) {
+Cut cut_of(const FacetBlock& block, std::size_t lane, const WaterPlane& water) {
     std::array<double, 3> z;
     for (std::size_t k = 0; k < 3; ++k)
         z[k] = dot(get(water.up), get(block.corner[k], lane)) + water.height;
-    return Cut(z, {wet(z[0]), wet(z[1]), wet(z[2])});
+    return cut_by_water(z);
 }
 
 // (16) needs no integral over the wetted part: the flow is even, so the wetted share will do.
 double share_of(const FacetBlock& block, std::size_t lane, const WaterPlane& water) {
-    const Cut h = cut_by_water(block, lane, water);
+    const Cut h = cut_of(block, lane, water);
     return ice::wetted_share(h.value[0], h.value[1], h.value[2]);
 }
 
@@ -65,12 +65,7 @@ Triangle make_triangle(const FacetBlock& block, std::size_t lane, const Vec3& v,
     return out;
 }
 // The part on the apex' side of the cut, with the area of the whole.
-Triangle tip_of(const Triangle& t, const Cut& cut) {
-    const std::size_t a = cut.apex, b = (a + 1) % 3, c = (a + 2) % 3;
-    const double s = cut.part(1), u = cut.part(2);
-    return {{t.p[a], t.p[a] + s * (t.p[b] - t.p[a]), t.p[a] + u * (t.p[c] - t.p[a])},
-            {t.f[a], t.f[a] + s * (t.f[b] - t.f[a]), t.f[a] + u * (t.f[c] - t.f[a])}};
-}
+Triangle tip_of(const Triangle& t, const Cut& cut) { return {on_tip(t.p, cut), on_tip(t.f, cut)}; }
 
 // 3, 12 and 60 times the integrals.
 struct Facing {
@@ -108,13 +103,6 @@ Facing integrate_whole(const Triangle& t) {
     return out;
 }
 
-// Over the part where the flow comes from outside.
-Facing integrate_part(const Triangle& t) {
-    return integrate_facing<Facing>(
-        t, [](const Triangle& all) { return integrate_whole(all); },
-        [](const Triangle& all, const Cut& cut) { return tip_of(all, cut); });
-}
-
 }  // namespace
 
 WettedIntegrals integrate_wetted(const FacetBlocks& facets, const WaterPlane& water) {
@@ -123,7 +111,7 @@ WettedIntegrals integrate_wetted(const FacetBlocks& facets, const WaterPlane& wa
     VectorSum first;
     for (const FacetBlock& block : facets.blocks)
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            const Cut h = cut_by_water(block, lane, water);
+            const Cut h = cut_of(block, lane, water);
             const auto& z = h.value;
             for (const bool is_wet : h.inside) (is_wet ? out.any_wet : out.any_dry) = true;
             const double area = dot(get(water.up), get(block.area, lane));
@@ -159,14 +147,8 @@ FacingIntegrals integrate_facing(const FacetBlocks& facets, const WaterPlane& wa
     std::array<Facing, kLanes> sums{};
     for (const FacetBlock& block : facets.blocks)
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            const Cut h = cut_by_water(block, lane, water);
             const Triangle t = make_triangle(block, lane, v, w);
-            if (h.counts_whole()) sums[lane].add(1.0, integrate_part(t));
-            if (!h.any) continue;
-            // The tip is similar to the whole in the plane of the cut: its area is the product of
-            // the cut shares.
-            const double size = h.part(1) * h.part(2);
-            sums[lane].add(h.tip_is_inside() ? size : -size, integrate_part(tip_of(t, h)));
+            add_wetted(cut_of(block, lane, water), t, sums[lane]);
         }
     Sum flow{};
     VectorSum first, square, mixed;
