@@ -150,7 +150,7 @@ std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, d
     // Cosine of 0.01 rad [-]: nearer directions count once. With a smaller angle the triangles of
     // one face count as several, with a larger one faces that turn by less than it are one.
     constexpr double kSameTouch = 0.99995;
-    thread_local std::vector<Foot> feet;  // keep their memory
+    std::vector<Foot> feet;
     tree.within(center, range, feet);
     // the nearest first: the other triangles of a face have their feet a little aside
     sort_by_distance(feet);
@@ -172,8 +172,9 @@ std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, d
 std::optional<Seat> settle_from(const SurfaceTree& tree, const Vec3& start, double radius,
                                 std::int32_t hint, int smooth_steps) {
     Vec3 c = start;
-    thread_local std::vector<Foot> feet;  // keep their memory
-    thread_local std::vector<Condition> conditions;
+    // take memory in creases only
+    std::vector<Foot> feet;
+    std::vector<Condition> conditions;
     for (int step = 0; step < kMostSteps; ++step) {
         const Foot foot = tree.closest(c, hint);
         hint = foot.triangle;
