@@ -26,10 +26,15 @@ constexpr double kLeastShare = 0.3, kMostShare = 0.6;       // of the ice's radi
 // the time depends on it.
 constexpr std::size_t kFewestListed = 4096;
 
+// |R - R0| is sqrt(8) sin(angle / 2): at least this share of sqrt(2) angle [-] below half a radian.
+// Smaller renews lists earlier; nearer to 1 the angle is no bound, and contacts could be missed.
+constexpr double kChordShare = 0.99;
+
 // Relative motion and rotation [rad] of a pair since b had the pose (rotation, translation) in a's
-// axes. |R - R0| is sqrt(8) sin(angle / 2), below half a radian at least 0.99 sqrt(2) angle.
+// axes.
 Skin relative_motion(const PairView& view, const Mat3& rotation, const Vec3& translation) {
-    const double turned = (view.rotation_ab - rotation).norm() / (0.99 * std::numbers::sqrt2);
+    const double turned =
+        (view.rotation_ab - rotation).norm() / (kChordShare * std::numbers::sqrt2);
     return {(view.translation_ab - translation).norm() + MotionBounds::lever(view.shape_b) * turned,
             turned};
 }
