@@ -20,6 +20,10 @@ constexpr double kLeast = 0.01;
 // Pieces of the wetted surface, from which cells are drawn, at most [-]: a hull that takes more has
 // no arrows along it. More take longer. All of these matter to pictures alone.
 constexpr std::size_t kMostPieces = 20000;
+// How far an arrow along the hull is off its panel, and below the surface at least [cells]: there
+// the table's flow is that around the hull. A larger value draws the flow farther away, a smaller
+// one that between nodes in the hull.
+constexpr double kOffPanelCells = 0.1;
 
 class Sampler {
 public:
@@ -73,10 +77,9 @@ private:
         const auto panels = split_triangles(scene_.shapes[0].mesh, cell, kMostPieces);
         std::set<std::array<long, 3>> taken;
         for (const SourcePanel& panel : panels) {
-            // a little off the panel and below the surface, where the table's flow is that
-            // around the hull
-            const Vec3 at = panel.centre + Vec3(0, 0, height_) + 0.1 * cell * panel.normal;
-            if (at.z() > -0.1 * cell) continue;
+            const Vec3 at =
+                panel.centre + Vec3(0, 0, height_) + kOffPanelCells * cell * panel.normal;
+            if (at.z() > -kOffPanelCells * cell) continue;
             const Vec3 c = (at / cell).array().floor();
             if (taken.insert({std::lround(c.x()), std::lround(c.y()), std::lround(c.z())}).second)
                 add(at);
