@@ -9,6 +9,7 @@
 
 #include "common/geometry/winding_number.hpp"
 #include "preprocess/clean/find_parts.hpp"
+#include "preprocess/repair/cap_limits.hpp"
 
 namespace ice {
 
@@ -118,7 +119,7 @@ public:
         // The volume that a surface turning by this mean slope at the rim might have had beyond the
         // cap (judge_caps.hpp).
         if (cap.perimeter > 0.0) out.doubt = guessed * out.area / cap.perimeter * mean;
-        if (guessed <= 1e-6 * out.area) out.kind = CapKind::continued;
+        if (guessed <= CapLimits::kNoGuess * out.area) out.kind = CapKind::continued;
         return out;
     }
 
@@ -151,8 +152,8 @@ public:
         }
         // A deck faces upwards, its rim lies on walls, runs without steps, and nothing of its part
         // is above it.
-        return sum.z() >= 0.9 * area && walls <= 0.3 * length && walls >= -0.6 * length &&
-               !has_steps(cap) && spans_and_tops(cap);
+        return sum.z() >= CapLimits::kLevel * area && walls <= CapLimits::kLeansIn * length &&
+               walls >= -CapLimits::kLeansOut * length && !has_steps(cap) && spans_and_tops(cap);
     }
 
 private:
@@ -173,11 +174,11 @@ private:
             if (normal(edge.patch).dot(n) < kFlat) continue;
             const double offset = n.dot(mesh_.corner(static_cast<std::size_t>(edge.patch), 0));
             const bool known = std::any_of(planes.begin(), planes.end(), [&](const Plane& p) {
-                return p.normal.dot(n) > kFlat && std::abs(p.offset - offset) < 1e-4 * size_;
+                return p.normal.dot(n) > kFlat &&
+                       std::abs(p.offset - offset) < CapLimits::kOnePlane * size_;
             });
             if (!known) planes.push_back({n, offset});
-            // bounds the time: a rim of curved faces has hundreds of planes
-            if (planes.size() == 32) break;
+            if (planes.size() == CapLimits::kMostPlanes) break;
         }
         return planes;
     }
@@ -186,7 +187,8 @@ private:
         const Vec3 area = mesh_.area_vector(t);
         return std::any_of(planes.begin(), planes.end(), [&](const Plane& p) {
             return area.dot(p.normal) >= kFlat * area.norm() &&
-                   std::abs(p.normal.dot(mesh_.corner(t, 0)) - p.offset) < 1e-4 * size_;
+                   std::abs(p.normal.dot(mesh_.corner(t, 0)) - p.offset) <
+                       CapLimits::kOnePlane * size_;
         });
     }
 
@@ -209,14 +211,15 @@ private:
             if (parts_.of_triangle[t] != parts_.of_triangle[first]) continue;
             for (int k = 0; k < 3; ++k) {
                 part.extend(mesh_.corner(t, k));
-                if (mesh_.corner(t, k).z() > rim.min().z() + 1e-6 * size_)
+                if (mesh_.corner(t, k).z() > rim.min().z() + CapLimits::kMayStandAbove * size_)
                     higher.push_back(mesh_.corner(t, k));
             }
         }
         for (int d = 0; d < 2; ++d)
-            if (rim.sizes()[d] < 0.6 * part.sizes()[d]) return false;
-        return std::none_of(higher.begin(), higher.end(),
-                            [&](const Vec3& p) { return p.z() > height(cap, p) + 1e-3 * size_; });
+            if (rim.sizes()[d] < CapLimits::kSpans * part.sizes()[d]) return false;
+        return std::none_of(higher.begin(), higher.end(), [&](const Vec3& p) {
+            return p.z() > height(cap, p) + CapLimits::kStandsAbove * size_;
+        });
     }
 
     // Of the cap above or below p; where it does not reach, infinity.
