@@ -18,6 +18,10 @@ constexpr double kFlat = 1e-6;
 // Share of the diagonal [-] by which a sheet may reach beyond the rest: a deck with a rail does, a
 // sea plane reaches many times farther.
 constexpr double kBeyond = 0.05;
+// Volume of a box around a part over that of the part's own box [-], twice as large along each
+// axis, from which it is the domain of a flow computation. A larger value keeps narrow domains, a
+// smaller one leaves out boxes around the ship's own parts, such as a house around a funnel.
+constexpr double kDomain = 8.0;
 
 // A part of the mesh, by its measures.
 struct Part {
@@ -98,8 +102,7 @@ std::optional<TriangleMesh> main_parts(const TriangleMesh& mesh, std::int64_t& l
     const auto is_around = [&](std::size_t p) {
         return parts[p].on_box && std::any_of(present.begin(), present.end(), [&](std::size_t q) {
                    return q != p && !parts[q].flat() && parts[p].box.contains(parts[q].box) &&
-                          // twice as large along each axis
-                          parts[p].box.volume() > 8.0 * parts[q].box.volume();
+                          parts[p].box.volume() > kDomain * parts[q].box.volume();
                });
     };
     std::vector<std::size_t> solid;

@@ -5,8 +5,26 @@
 
 namespace ice {
 
-/// What judge_caps takes for a continued face and for a deck.
+/// What judge_caps refuses, and what it takes for a continued face and for a deck.
 struct CapLimits {
+    /// Shares [-] above which caps are refused (judge_caps.hpp). Larger ones accept more meshes and
+    /// leave more of the volume to a guess; smaller ones refuse meshes whose volume is known well
+    /// enough. Of the volume, in doubt by one cap: a larger one lets a single opening decide more
+    /// of the mass.
+    static constexpr double kDoubt = 0.005;
+    /// Of the surface, the largest cap in a file that seems cut off: a larger one passes files that
+    /// end in the middle of a hull, a smaller one refuses whole files with a hole.
+    static constexpr double kSuspect = 0.005;
+    /// Of the surface, all continued faces together: a larger one passes hulls without a side, a
+    /// smaller one refuses barges without a bottom plate.
+    static constexpr double kContinued = 0.2;
+    /// Of the surface, all small caps together: a larger one lets many small openings hide a large
+    /// loss, a smaller one refuses meshes with many holes that have no volume.
+    static constexpr double kLoose = 0.05;
+    /// Of the surface, the largest cap of guessed form at an end: a larger one passes hulls without
+    /// a stem, a smaller one refuses those with a pinhole there.
+    static constexpr double kEnd = 0.0005;
+
     /// Area of a cap that continues no neighbour, over the cap's [-], up to which it continues
     /// them: a larger value takes caps with a guessed corner for continued faces, a smaller one
     /// makes rounding a guess.

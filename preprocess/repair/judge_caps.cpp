@@ -15,14 +15,6 @@ namespace ice {
 
 namespace {
 
-// Limits above which caps are refused (judge_caps.hpp). Larger ones accept more meshes and leave
-// more of the volume to a guess; smaller ones refuse meshes whose volume is known well enough.
-// All are shares [-].
-constexpr double kDoubt = 0.005;    // of the volume, in doubt by one cap
-constexpr double kSuspect = 0.005;  // of the surface: largest cap in a file that seems cut off
-constexpr double kContinued = 0.2;  // of the surface: all continued faces together
-constexpr double kLoose = 0.05;     // of the surface: all small caps together
-constexpr double kEnd = 0.0005;     // of the surface: largest cap of guessed form at an end
 // Edges round a face or two, or round one vertex, that are missing [-]: such a hole has a known
 // form. A larger value takes open ends of coarse meshes for such holes, a smaller one refuses
 // meshes that lack a face at an end.
@@ -77,7 +69,7 @@ public:
     // A cap of guessed form where the solid ends along its length: how much farther it went, a
     // whole stem perhaps, nothing tells, however little volume that had.
     bool cuts_an_end(const Cap& cap, const CapVerdict& verdict) const {
-        if (verdict.kind != CapKind::small || verdict.area <= kEnd * surface_ ||
+        if (verdict.kind != CapKind::small || verdict.area <= CapLimits::kEnd * surface_ ||
             cap.rim.size() <= kFewEdges)
             return false;
         int along = 0;
@@ -258,9 +250,9 @@ std::vector<CapVerdict> judge_caps(const TriangleMesh& mesh, const std::vector<C
         CapVerdict& cap_is = out.back();
         // Tests by winding numbers cost time: a cap too small to change the result is accepted
         // without them.
-        const bool matters =
-            cap_is.doubt > kTrifle * judge.volume() || cap_is.area > kLoose * judge.surface();
-        if (suspect && cap_is.area > kSuspect * judge.surface())
+        const bool matters = cap_is.doubt > kTrifle * judge.volume() ||
+                             cap_is.area > CapLimits::kLoose * judge.surface();
+        if (suspect && cap_is.area > CapLimits::kSuspect * judge.surface())
             cap_is.kind = CapKind::guess;
         else if (matters && judge.is_hidden(cap))
             cap_is.kind = CapKind::hidden;
@@ -275,16 +267,17 @@ std::vector<CapVerdict> judge_caps(const TriangleMesh& mesh, const std::vector<C
     // Each cap by itself and all together: many small caps may hide a large loss.
     const bool each = std::all_of(out.begin(), out.end(), [&](const CapVerdict& cap) {
         return cap.kind == CapKind::deck || cap.kind == CapKind::hidden ||
-               cap.doubt <= kDoubt * judge.volume();
+               cap.doubt <= CapLimits::kDoubt * judge.volume();
     });
     const bool stand = each && doubt <= kMostDoubt * judge.volume() &&
-                       loose <= kLoose * judge.surface() &&
-                       continued <= kContinued * judge.surface();
+                       loose <= CapLimits::kLoose * judge.surface() &&
+                       continued <= CapLimits::kContinued * judge.surface();
     if (stand) return out;
     // name the cap that uses the largest share of its allowance
     const auto weight = [&](const CapVerdict& cap) {
-        const double of_area = cap.kind == CapKind::continued ? kContinued : kLoose;
-        return std::max(cap.doubt / (kDoubt * judge.volume()),
+        const double of_area =
+            cap.kind == CapKind::continued ? CapLimits::kContinued : CapLimits::kLoose;
+        return std::max(cap.doubt / (CapLimits::kDoubt * judge.volume()),
                         cap.area / (of_area * judge.surface()));
     };
     CapVerdict* heaviest = nullptr;
