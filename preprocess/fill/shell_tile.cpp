@@ -49,7 +49,7 @@ constexpr std::size_t kFewFine = 16;
 constexpr std::size_t kMostConvexTests = 10000;
 // Height over the largest extent [-] up to which vertices lie in a face's plane. A larger value
 // takes hollow solids for convex ones, a smaller one convex solids for hollow ones by rounding.
-constexpr double kFlat = 1e-9;
+constexpr double kCoplanar = 1e-9;
 
 Eigen::AlignedBox3d around(const Eigen::AlignedBox3d& box, double halo) {
     return {box.min() - Vec3::Constant(halo), box.max() + Vec3::Constant(halo)};
@@ -62,7 +62,7 @@ ShellSolid::ShellSolid(const SurfaceTree& whole) : tree(whole), convex(true) {
     const TriangleMesh& mesh = tree.mesh();
     for (const Vec3& v : mesh.vertices) box.extend(v);
     if (mesh.triangles.size() * mesh.vertices.size() > kMostConvexTests) convex = false;
-    const double flat = kFlat * box.sizes().maxCoeff();
+    const double flat = kCoplanar * box.sizes().maxCoeff();
     for (std::size_t t = 0; convex && t < mesh.triangles.size(); ++t) {
         const Vec3& normal = tree.normal(static_cast<std::int32_t>(t));
         const double height = normal.dot(mesh.corner(t, 0)) + flat;

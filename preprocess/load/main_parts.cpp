@@ -11,10 +11,6 @@ namespace ice {
 
 namespace {
 
-// Least extent of a part over its diagonal [-] up to which it is a flat sheet: far above rounding,
-// far below the thickness of a plate. A larger value takes plates for sheets, a smaller one sheets
-// with rounded corners for bodies.
-constexpr double kFlat = 1e-6;
 // Share of the diagonal [-] by which a sheet may reach beyond the rest: a deck with a rail does, a
 // sea plane reaches many times farther.
 constexpr double kBeyond = 0.05;
@@ -28,7 +24,7 @@ struct Part {
     Eigen::AlignedBox3d box;
     double area = 0.0;
     bool on_box = true;  // all corners lie in faces of its box
-    bool flat() const { return box.sizes().minCoeff() <= kFlat * box.diagonal().norm(); }
+    bool flat() const { return box.sizes().minCoeff() <= kFlatSheet * box.diagonal().norm(); }
 };
 
 // For each vertex the number of its part; parts are counted in the order of their first vertices.
@@ -82,7 +78,7 @@ std::vector<Part> measure_parts(const TriangleMesh& mesh, const std::vector<std:
             const Vec3 p = mesh.corner(t, k);
             const Eigen::AlignedBox3d& box = of(t).box;
             const double in = std::min((p - box.min()).minCoeff(), (box.max() - p).minCoeff());
-            if (in > kFlat * box.diagonal().norm()) of(t).on_box = false;
+            if (in > kFlatSheet * box.diagonal().norm()) of(t).on_box = false;
         }
     return parts;
 }

@@ -42,7 +42,7 @@ constexpr double kStep = 1e-3;
 constexpr double kJustOutside = 1e-4;
 // Cosine of one degree [-]: faces of one plane. A larger angle takes curved surfaces for flat ones,
 // a smaller one faces of one plane for several.
-const double kFlat = std::cos(std::numbers::pi / 180.0);
+const double kOneDegree = std::cos(std::numbers::pi / 180.0);
 
 struct Plane {
     Vec3 normal;
@@ -163,10 +163,10 @@ private:
         std::vector<Plane> planes;
         for (const RimEdge& edge : cap.rim) {
             const Vec3 n = normal(edge.neighbour);
-            if (normal(edge.patch).dot(n) < kFlat) continue;
+            if (normal(edge.patch).dot(n) < kOneDegree) continue;
             const double offset = n.dot(mesh_.corner(static_cast<std::size_t>(edge.patch), 0));
             const bool known = std::any_of(planes.begin(), planes.end(), [&](const Plane& p) {
-                return p.normal.dot(n) > kFlat &&
+                return p.normal.dot(n) > kOneDegree &&
                        std::abs(p.offset - offset) < CapLimits::kOnePlane * size_;
             });
             if (!known) planes.push_back({n, offset});
@@ -178,7 +178,7 @@ private:
     bool continues(std::size_t t, const std::vector<Plane>& planes) const {
         const Vec3 area = mesh_.area_vector(t);
         return std::any_of(planes.begin(), planes.end(), [&](const Plane& p) {
-            return area.dot(p.normal) >= kFlat * area.norm() &&
+            return area.dot(p.normal) >= kOneDegree * area.norm() &&
                    std::abs(p.normal.dot(mesh_.corner(t, 0)) - p.offset) <
                        CapLimits::kOnePlane * size_;
         });

@@ -20,7 +20,7 @@ namespace {
 // in the pre-sawn channel; eight steps and 0.9 radii won nothing. Contacts are the same.
 constexpr double kLookAhead = 5.0;                          // steps [-]
 constexpr double kLeastAngle = 0.0075, kMostAngle = 0.015;  // [rad]
-constexpr double kLeastShare = 0.3, kMostShare = 0.6;       // of the ice's radius
+constexpr double kLeastSkin = 0.3, kMostSkin = 0.6;         // of the ice's radius
 
 // Below this many entries [-], rows that are no longer in use cost less than closing the gaps. Only
 // the time depends on it.
@@ -198,9 +198,8 @@ Skin skin_of(const Scene& scene, BodyPair pair, double dt) {
     const double radius = scene.shapes[shape].largest_radius, ahead = kLookAhead * dt;
     // a pair that turns uses up the skin by its angle, one that slides by its distance
     const Vec3 turning = b.angular_velocity[pair.b] - b.angular_velocity[pair.a];
-    return {
-        std::clamp(ahead * closing_speed(scene, pair), kLeastShare * radius, kMostShare * radius),
-        std::clamp(ahead * turning.norm(), kLeastAngle, kMostAngle)};
+    return {std::clamp(ahead * closing_speed(scene, pair), kLeastSkin * radius, kMostSkin * radius),
+            std::clamp(ahead * turning.norm(), kLeastAngle, kMostAngle)};
 }
 
 }  // namespace ice

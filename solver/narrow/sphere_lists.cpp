@@ -9,7 +9,7 @@ namespace {
 
 // Up to so many blocks [-], some 100 kB, rows that are no longer in use do not matter. Only memory
 // and time depend on it.
-constexpr std::size_t kFewest = 256;
+constexpr std::size_t kFewestBlocks = 256;
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void SphereLists::keep(std::size_t k, std::span<const ListedSpheres> listed) {
     row.first = blocks_.size();
     blocks_.insert(blocks_.end(), listed.begin(), listed.end());
     // at least half of the memory is abandoned rows: close it up
-    if (blocks_.size() > kFewest && blocks_.size() > 2 * kept_) close_gaps();
+    if (blocks_.size() > kFewestBlocks && blocks_.size() > 2 * kept_) close_gaps();
 }
 
 void SphereLists::close_gaps() {

@@ -13,7 +13,7 @@ namespace {
 
 // Places on the water, and cells along the hull, before some are left out [-]: as many as a picture
 // can show. More hide each other, fewer leave parts of the flow out.
-constexpr double kOnSurface = 1200.0, kAlong = 25.0;
+constexpr double kSurfacePlaces = 1200.0, kAlong = 25.0;
 // Least speed of an arrow, in ship speeds [-]: shorter ones are not seen. A larger value leaves out
 // slow flow, a smaller one draws dots.
 constexpr double kLeast = 0.01;
@@ -59,7 +59,7 @@ private:
         // squares of equal area, so that the number of arrows does not depend on the hull's
         // size
         const double step =
-            std::sqrt((high_.x() - low_.x()) * (high_[axis] - low_[axis]) / kOnSurface);
+            std::sqrt((high_.x() - low_.x()) * (high_[axis] - low_[axis]) / kSurfacePlaces);
         for (double x = low_.x() + 0.5 * step; x < high_.x(); x += step)
             for (double other = high_[axis] - 0.5 * step; other > low_[axis]; other -= step) {
                 Vec3 at(x, 0.0, 0.0);
