@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <limits>
 
 #include "common/base/error.hpp"
 #include "common/base/instruction_set.hpp"
@@ -102,7 +103,7 @@ std::filesystem::path export_of(const std::filesystem::path& out) {
 
 // z of the water in the mesh's frame
 double water_of(const Options& o, const ice::SphereSet& hull) {
-    double low = 1e300, high = -1e300;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const ice::Vec3& v : hull.mesh.vertices) {
         low = std::min(low, v.z());
         high = std::max(high, v.z());
@@ -146,7 +147,7 @@ void add_added_mass(const Options& o, const ice::SphereSet& hull, double water,
     if (hull.dimension != 3)
         throw ice::bad_input("--added-mass", "needs a hull in 3D",
                              "give the set of the whole hull");
-    double low = 1e300, high = -1e300;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const ice::Vec3& v : hull.mesh.vertices) {
         low = std::min(low, v.x());
         high = std::max(high, v.x());

@@ -54,29 +54,37 @@ struct Slot {
 };
 // Files that are written at the same time: a program has three or four. Beyond 16 a file is still
 // written, but an abrupt end leaves its part.
-std::array<Slot, 16> slots;
+constexpr std::size_t kSlots = 16;
+
+// One table for the process, since a signal handler gets nothing but the signal's number. It is
+// made before the program runs (constinit): a handler may not wait for that.
+std::array<Slot, kSlots>& slots() {
+    static constinit std::array<Slot, kSlots> table;
+    return table;
+}
 
 int take_slot(const std::string& path) {
     if (path.size() >= PATH_MAX) return -1;
-    for (std::size_t k = 0; k < slots.size(); ++k) {
+    for (std::size_t k = 0; k < kSlots; ++k) {
+        Slot& slot = slots()[k];
         int free = 0;
-        if (!slots[k].state.compare_exchange_strong(free, 1)) continue;
-        std::memcpy(slots[k].path, path.c_str(), path.size() + 1);
+        if (!slot.state.compare_exchange_strong(free, 1)) continue;
+        std::memcpy(slot.path, path.c_str(), path.size() + 1);
         // last: a handler that interrupts the copy sees state 1 and leaves the name alone
-        slots[k].state = 2;
+        slot.state = 2;
         return static_cast<int>(k);
     }
     return -1;  // as many as that: the name will not be known
 }
 
 void give_slot(int slot) {
-    if (slot >= 0) slots[static_cast<std::size_t>(slot)].state = 0;
+    if (slot >= 0) slots()[static_cast<std::size_t>(slot)].state = 0;
 }
 
 }  // namespace
 
 void remove_part_files() noexcept {
-    for (const Slot& slot : slots)
+    for (const Slot& slot : slots())
         if (slot.state == 2) ::unlink(slot.path);
 }
 

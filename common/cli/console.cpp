@@ -30,24 +30,33 @@ namespace ice {
 
 namespace {
 
-volatile std::sig_atomic_t interrupt_flag = 0;
-std::string program_word;
-bool reader_gone = false;  // of stdout
+// What the process knows of its terminal.
+struct ConsoleState {
+    volatile std::sig_atomic_t interrupted = 0;
+    std::atomic<std::int64_t> interrupted_at = 0;  // [ns]
+    std::atomic<int> waited_for = 0;               // the program that interrupts are passed on to
+    bool reader_gone = false;                      // of stdout
+    const char* program = "";                      // as the user typed it
+    static_assert(std::atomic<int>::is_always_lock_free);  // as a signal handler needs it
+    static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+};
+
+// One for the process, since a signal handler gets nothing but the signal's number. It is made
+// before the program runs (constinit): a handler may not wait for that.
+ConsoleState& console() {
+    static constinit ConsoleState state;
+    return state;
+}
 
 // After a failure there, which a full disk shows as late as when the last data are written.
 void check_stdout() {
     if (errno == EPIPE) {
-        reader_gone = true;
+        console().reader_gone = true;
         return;
     }
     throw run_failed("standard output", std::string("cannot be written: ") + std::strerror(errno),
                      "check that the disk is not full");
 }
-
-std::atomic<int> waited_for = 0;               // the program that interrupts are passed on to
-std::atomic<std::int64_t> interrupted_at = 0;  // [ns]
-static_assert(std::atomic<int>::is_always_lock_free);  // as a signal handler needs it
-static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
 // A terminal and `timeout` signal a whole group of programs, and one of them may pass the signal on
 // to another: a second signal within this time is the same interrupt. Longer delays the end by a
@@ -60,14 +69,15 @@ void on_interrupt(int signal) {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     const std::int64_t time = now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
-    const pid_t child = waited_for;
+    ConsoleState& state = console();
+    const pid_t child = state.waited_for;
     // The first interrupt ends the program with all files closed; a second one, which is not an
     // echo of the first, does not wait for it.
-    if (interrupt_flag == 0) {
-        interrupted_at = time;
-        interrupt_flag = 1;
+    if (state.interrupted == 0) {
+        state.interrupted_at = time;
+        state.interrupted = 1;
         if (child > 0) kill(child, signal);
-    } else if (time - interrupted_at > kOneInterrupt) {
+    } else if (time - state.interrupted_at > kOneInterrupt) {
         if (child > 0) kill(child, SIGKILL);
         _exit(static_cast<int>(ExitCode::interrupted));
     }
@@ -123,7 +133,8 @@ void say(const std::string& text) { spdlog::info("{}", text); }
 void say_warning(const std::string& text) { spdlog::warn("warning: {}", text); }
 
 void write_data(const std::string& text) {
-    if (reader_gone || std::fwrite(text.data(), 1, text.size(), stdout) == text.size()) return;
+    if (console().reader_gone || std::fwrite(text.data(), 1, text.size(), stdout) == text.size())
+        return;
     check_stdout();
 }
 
@@ -147,7 +158,8 @@ int run_program(const std::string& name, const std::function<int()>& body,
         // Buffered data fail as late as here: without this flush a full disk would be no error at
         // all.
         const int code = body();
-        if (!reader_gone && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) check_stdout();
+        if (!console().reader_gone && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0))
+            check_stdout();
         return code;
     } catch (const Error& error) {
         complain(error.what());
@@ -183,12 +195,12 @@ void catch_interrupts() {
     std::signal(SIGTERM, on_interrupt);
 }
 
-bool interrupted() { return interrupt_flag != 0; }
+bool interrupted() { return console().interrupted != 0; }
 
-void pass_interrupts_to(int program) { waited_for = program; }
+void pass_interrupts_to(int program) { console().waited_for = program; }
 
-std::string typed_program() { return shell_word(program_word); }
-void set_typed_program(const std::string& word) { program_word = word; }
+std::string typed_program() { return shell_word(console().program); }
+void set_typed_program(const char* word) { console().program = word; }
 
 std::string shell_word(const std::string& word) {
     // Single quotes keep everything but a single quote, which leaves them, is escaped and begins

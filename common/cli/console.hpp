@@ -48,8 +48,8 @@ void pass_interrupts_to(int program);
 std::string command_line(int argc, const char* const* argv);
 /// The program as the user typed it, for commands to copy; run_command_line() sets it.
 std::string typed_program();
-/// To be called once, before typed_program().
-void set_typed_program(const std::string& word);
+/// To be called once, before typed_program(). @param word  argv[0]: referred to, not copied
+void set_typed_program(const char* word);
 /// A word of a command line, quoted where a shell needs it.
 std::string shell_word(const std::string& word);
 

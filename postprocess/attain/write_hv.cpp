@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "common/base/units.hpp"
@@ -143,7 +144,7 @@ std::string draw_hv(const HvStudy& study, double width) {
     chart.y_title = "speed [m/s]";
     chart.width = width;
     chart.height = 420.0;
-    double low = 1e300, high = -1e300, fastest = 0.0;
+    double low = std::numeric_limits<double>::infinity(), high = -low, fastest = 0.0;
     for (const HvCurve& curve : study.curves)
         for (const HvPoint& p : curve.points) {
             low = std::min(low, p.thickness);

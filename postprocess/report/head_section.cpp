@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/base/time_rounding.hpp"
 #include "common/base/uncertainty.hpp"
 #include "common/base/units.hpp"
 #include "common/formulas/formula_band.hpp"
@@ -123,7 +124,7 @@ double mean_speed(const RunData& run, double from) {
     // Distance over time, not the mean of samples: exact for any motion between the two rows.
     const HistoryRow* first = nullptr;
     for (const HistoryRow& row : run.history)
-        if (row.time >= from - 1e-9) {
+        if (row.time >= from - kTimeRounding) {
             first = &row;
             break;
         }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "postprocess/statistics/line_of_action.hpp"
 
+#include "common/base/time_rounding.hpp"
+
 namespace ice::statistics {
 
 namespace {
@@ -10,9 +12,8 @@ std::optional<Vec3> center_of_load(const RunData& run, double from) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t f = 1; f < run.frames.size(); ++f) {
         const double begin = run.frames[f - 1].time;
-        // 1e-9 s: times are sums of steps, and their rounding must not drop the first frame
         // forces of a frame are means since the one before: with that time they are impulses
-        if (begin < from - 1e-9) continue;
+        if (begin < from - kTimeRounding) continue;
         for (const HullContact& c : run.frames[f].hull_contacts) {
             const double impulse = c.normal_force.norm() * (run.frames[f].time - begin);
             weight += impulse;
@@ -32,7 +33,7 @@ LineOfAction find_line_of_action(const RunData& run, double from) {
     out.center = center_of_load(run, from);
     double count = 0.0;
     for (const HistoryRow& row : run.history) {
-        if (row.time < from - 1e-9) continue;
+        if (row.time < from - kTimeRounding) continue;
         out.force += row.contact_force + row.friction_force;
         out.moment += row.moment;
         ++count;

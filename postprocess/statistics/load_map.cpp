@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "common/base/time_rounding.hpp"
 #include "postprocess/views/faces.hpp"
 
 namespace ice::statistics {
@@ -201,7 +202,7 @@ LoadMap make_load_map(const RunData& run, double from) {
     double time = 0.0;
     for (std::size_t f = 1; f < run.frames.size(); ++f) {
         const double begin = run.frames[f - 1].time, end = run.frames[f].time;
-        if (begin < from - 1e-9) continue;
+        if (begin < from - kTimeRounding) continue;
         if (time == 0.0) map.from = begin;
         map.to = end;
         time += end - begin;

@@ -18,7 +18,7 @@ namespace {
 // Least extent over the length [-] up to which a mesh is flat: rounding of its coordinates. A
 // larger value refuses thin plates as flat; with a smaller one the message for a flat mesh is about
 // the radius.
-constexpr double kFlat = 1e-9;
+constexpr double kFlatMesh = 1e-9;
 // Size of a repaired solid over the mesh's [-], at most: a shrink wrap lies outside. With 1 the
 // early refusal would refuse a radius that the wrap has room for; a larger value refuses fewer
 // radii early, and their repair takes its time in vain.
@@ -74,7 +74,7 @@ void refuse_thin_mesh(const std::string& name, const TriangleMesh& surface, doub
     const Vec3 size = bounding_box(surface).sizes();
     // a sphere that fits has at most half of the least extent; in 2D a disc, in x-z
     const double most = 0.5 * (dimension == 3 ? size.minCoeff() : std::min(size.x(), size.z()));
-    if (most <= kFlat * size.maxCoeff())
+    if (most <= kFlatMesh * size.maxCoeff())
         throw bad_input(
             name,
             fmt::format("is not the closed surface of a solid: it is flat, {:.4g} x {:.4g} x "

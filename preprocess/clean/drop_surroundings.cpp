@@ -8,14 +8,12 @@
 
 #include "preprocess/clean/find_parts.hpp"
 #include "preprocess/clean/keep_triangles.hpp"
+#include "preprocess/load/main_parts.hpp"
 
 namespace ice {
 
 namespace {
 
-// Extent over a part's diagonal [-] that counts as none: rounding of its coordinates. A larger
-// value takes thin bodies for sheets; with a smaller one, rounded sheets and boxes stay.
-constexpr double kFlat = 1e-6;
 // A box is a flow solver's domain if, in two directions at least, its extent is this many times [-]
 // that of all parts that are neither boxes nor flat sheets. Domains are usually several times as
 // large, and a casing around all parts has about 1: a smaller value drops casings, a larger one
@@ -41,7 +39,7 @@ struct Piece {
 
     // thin along one axis: a sheet; all triangles in the box's faces: a box
     Form form() const {
-        const double small = kFlat * box.diagonal().norm();
+        const double small = kFlatSheet * box.diagonal().norm();
         const auto thin = (box.sizes().array() <= small).count();
         return thin == 1 ? Form::flat : thin == 0 && on_box ? Form::box : Form::other;
     }
@@ -59,7 +57,7 @@ std::vector<Piece> measure_parts(const TriangleMesh& mesh, const Parts& parts) {
         // A box's every triangle lies in one face of its bounding box; one triangle elsewhere and
         // the part is something else. Boxes must be known whole, so this is a second pass.
         if (!piece.on_box) continue;
-        const double small = kFlat * piece.box.diagonal().norm();
+        const double small = kFlatSheet * piece.box.diagonal().norm();
         piece.on_box = false;
         for (int d = 0; d < 3; ++d)
             for (const double face : {piece.box.min()[d], piece.box.max()[d]}) {
@@ -79,7 +77,7 @@ bool surrounds(const Piece& piece, const Box& rest) {
     int beyond = 0;
     // around the rest in all directions, and far larger in two of them
     for (int d = 0; d < 3; ++d) {
-        if (flat && piece.box.sizes()[d] <= kFlat * piece.box.diagonal().norm()) continue;
+        if (flat && piece.box.sizes()[d] <= kFlatSheet * piece.box.diagonal().norm()) continue;
         if (piece.box.min()[d] > rest.min()[d] || piece.box.max()[d] < rest.max()[d]) return false;
         beyond += piece.box.sizes()[d] >= times * rest.sizes()[d];
     }

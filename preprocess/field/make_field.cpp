@@ -13,6 +13,7 @@
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
 #include "common/base/timer.hpp"
+#include "common/formats/hexagonal_layer.hpp"
 #include "preprocess/field/fill_prism.hpp"
 #include "preprocess/field/plan_floes.hpp"
 
@@ -61,9 +62,8 @@ void refuse_too_many(const FieldSpec& spec, const std::vector<Outline>& outlines
     for (const Outline& outline : outlines)
         // both faces, and a side around them of some four sizes
         surface += 2.0 * area_of(outline) + 4.0 * size_of(outline) * spec.thickness;
-    // A hexagonal layer of spacing s has 2 / sqrt(3) = 1.155 spheres per s^2. Refused before the
-    // fill, which would run for hours and then out of memory.
-    const double count = 1.155 * surface / (spec.spacing * spec.spacing);
+    // Refused before the fill, which would run for hours and then out of memory.
+    const double count = kHexagonal * surface / (spec.spacing * spec.spacing);
     if (count > kMostSpheres)
         throw bad_input(
             "spheres.spacing",

@@ -27,6 +27,10 @@ constexpr double kAside = 0.65;
 // Places whose cover is measured by a climb: the worst samples. More may find a worse place and
 // take as much longer.
 constexpr std::size_t kClimbs = 512;
+// Steps of such a climb over the samples' distance [-]: the first, and those that are too short to
+// find more. A longer first one leaves the sample's surroundings, shorter last ones take longer for
+// the third digit of the radius.
+constexpr double kFirstStep = 0.5, kShortStep = 0.04;
 
 // Values up to `most` by weight, in bins of most / 65536: a percentile needs no sorting.
 class Histogram {
@@ -187,9 +191,9 @@ void measure_cover(const SurfaceTree& tree, const SphereSet& set, const SphereFi
         double here = finder.covering(at, normal, finder.nearest(at)).distance;
         Vec3 e1 = set.dimension == 2 ? normal.cross(Vec3::UnitY()) : normal.unitOrthogonal();
         const Vec3 e2 = normal.cross(e1);
-        // A climb in eight directions. Its steps are halved from half the samples' distance down to
-        // a twenty-fifth of it. The result holds near the worst samples only: it proves no bound.
-        for (double step = 0.5 * size; step > 0.04 * size; step *= 0.5)
+        // A climb in eight directions, with steps that are halved. The result holds near the worst
+        // samples only: it proves no bound.
+        for (double step = kFirstStep * size; step > kShortStep * size; step *= 0.5)
             for (int direction = 0; direction < (set.dimension == 2 ? 2 : 8); ++direction) {
                 const double angle = set.dimension == 2 ? direction * std::numbers::pi
                                                         : direction * std::numbers::pi / 4.0;

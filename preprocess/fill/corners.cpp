@@ -20,12 +20,12 @@ constexpr double kEdgeReach = 1.01;
 
 // How far a settled sphere may go along a unit vector until it touches one more face [m]; `most`
 // where there is none before.
+// @param feet  work memory
 double distance_to_next_face(const SurfaceTree& tree, const Vec3& center, const Vec3& along,
-                             double radius, double most) {
+                             double radius, double most, std::vector<Foot>& feet) {
     // Sine between `along` and the face [-]: a flatter face is one that the sphere slides along. A
     // larger value misses blunt corners, a smaller one takes the edge's own faces for new ones.
     constexpr double kLeastRise = 0.1;
-    thread_local std::vector<Foot> feet;
     // The distance to a face shrinks by the cosine of the angle between `along` and the face's
     // direction: the face is touched after (distance - radius) / cosine.
     tree.within(center, radius + most, feet);
@@ -101,8 +101,9 @@ std::optional<Seat> slide_to_corner(const SurfaceTree& tree, double radius, Seat
     // Steps at most [-]: several where the third face is cut into triangles or curved. Fewer miss
     // corners in such faces, more only take time.
     constexpr int kMostSteps = 8;
+    std::vector<Foot> feet;
     for (int step = 0; step < kMostSteps; ++step) {
-        const double distance = distance_to_next_face(tree, seat.center, along, radius, most);
+        const double distance = distance_to_next_face(tree, seat.center, along, radius, most, feet);
         if (distance == most) return std::nullopt;
         if (distance < exact_distance(seat.center, radius)) break;
         seat.center += distance * along;

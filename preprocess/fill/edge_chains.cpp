@@ -15,6 +15,10 @@ namespace {
 // straight on. Lower values would lose corners, higher ones put a sphere into each knuckle of a
 // curved edge.
 constexpr double kStraightCos = 0.94;
+// Sum of the unit normals of an edge's faces [-] below which it is a knife's, of less than 12
+// degrees: no sphere fits, and the shift inwards has no bound. Larger leaves sharp edges without
+// starts of their own, smaller puts starts far inside.
+constexpr double kKnifeEdge = 0.2;
 
 struct SharpEdge {
     std::int32_t a, b;  // vertices, a < b
@@ -36,7 +40,7 @@ std::vector<SharpEdge> find_sharp_edges(const SurfaceTree& tree, double sharp) {
         for (int k = 0; k < 3; ++k)
             far += n1.dot(mesh.corner(static_cast<std::size_t>(edge.triangles[1]), k) - on);
         const Vec3 sum = n1 + n2;
-        if (far >= 0.0 || sum.norm() < 0.2) continue;  // a knife's edge: no sphere fits
+        if (far >= 0.0 || sum.norm() < kKnifeEdge) continue;
         // on both planes shifted inwards by 1: -2 (n1 + n2) / |n1 + n2|^2
         out.push_back({edge.a, edge.b, -2.0 / sum.squaredNorm() * sum});
     }

@@ -10,6 +10,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/timer.hpp"
+#include "common/formats/hexagonal_layer.hpp"
 #include "preprocess/fill/certificate.hpp"
 #include "preprocess/fill/corners.hpp"
 #include "preprocess/fill/drop_outside.hpp"
@@ -66,7 +67,7 @@ void refuse_too_many(const SphereSet& set, const FillOptions& o) {
         flat ? set.solid.volume / (wide * wide) : set.solid.volume / (wide * wide * wide);
     if (o.surface_only) count = 0.0;
     if (o.arrangement == Arrangement::conforming && !flat)
-        count += 1.155 * set.solid.area / (set.spacing * set.spacing);  // a hexagonal layer
+        count += kHexagonal * set.solid.area / (set.spacing * set.spacing);
     // the outline is a slab's area without its two ends; it is followed by five points a disc
     if (o.arrangement == Arrangement::conforming && flat)
         count += 5.0 * (set.solid.area - 2.0 * set.solid.volume) / set.spacing;

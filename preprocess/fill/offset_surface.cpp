@@ -48,6 +48,28 @@ constexpr std::size_t kMostDirections = 500;
 // With a smaller angle these fill the list; with a larger one, faces that turn by less than it are
 // one condition.
 constexpr double kSameDirection = 0.9999995;
+// Distance of a foot over the range of its search [-] up to which it has no direction: the centre
+// lies on the surface, and the difference has no digits left. Larger takes the face's normal for
+// exact directions, smaller takes directions of rounding.
+constexpr double kNoDistance = 1e-12;
+// Two and three conditions are solved in closed form where their determinant [-] is more: square of
+// the sine of the angle between two, volume of three. Below, walls are nearly parallel, and an
+// inverse would throw the centre far away. Smaller does so, larger takes least squares, which
+// gives the same in more time.
+constexpr double kLeastDeterminant2 = 1e-10, kLeastDeterminant3 = 1e-7;
+// Distance by which a condition is missed [m] up to which it counts as met: rounding of lengths of
+// about 1 m. Larger leaves faces out that a sphere reaches into, smaller solves for rounding.
+constexpr double kMet = 1e-14;
+// Distance to the foot over the radius [-] below which a start is too near to the surface for a
+// step along the foot's direction. Larger solves more conditions, smaller makes steps along
+// directions of few digits.
+constexpr double kDeepEnough = 0.1;
+// Longest move of a step over the radius [-]: a longer one shows a wedge too sharp to fit in.
+// Larger follows it far away, smaller loses seats in narrow creases.
+constexpr double kLongestMove = 4.0;
+// Sum of the directions near a crease [-] below which they cancel: a thin part, without an edge to
+// push the start to. Smaller pushes along rounding, larger leaves starts in shallow creases.
+constexpr double kCancel = 1e-6;
 
 // g . move >= need
 struct Condition {
@@ -68,8 +90,8 @@ void add_conditions(const SurfaceTree& tree, const Vec3& c, double radius,
     out.clear();
     for (const Foot& foot : feet) {
         // a centre on the surface itself has no direction but the face's
-        const Vec3 g = foot.distance > 1e-12 * radius ? Vec3((c - foot.point) / foot.distance)
-                                                      : Vec3(-tree.normal(foot.triangle));
+        const Vec3 g = foot.distance > kNoDistance * radius ? Vec3((c - foot.point) / foot.distance)
+                                                            : Vec3(-tree.normal(foot.triangle));
         const bool seen = std::any_of(out.begin(), out.end(), [&](const Condition& other) {
             return other.g.dot(g) > kSameDirection;
         });
@@ -111,14 +133,13 @@ Vec3 meet(const Condition* const* active, int count) {
     if (count == 1) return need[0] * active[0]->g;
     if (count == 2) {
         const double mixed = active[0]->g.dot(active[1]->g), det = 1.0 - mixed * mixed;
-        if (det > 1e-10)
+        if (det > kLeastDeterminant2)
             return ((need[0] - mixed * need[1]) * active[0]->g +
                     (need[1] - mixed * need[0]) * active[1]->g) /
                    det;
-    } else if (const double det = g.determinant(); std::abs(det) > 1e-7) {
+    } else if (const double det = g.determinant(); std::abs(det) > kLeastDeterminant3) {
         return g.inverse() * need;
     }
-    // Nearly parallel walls: an inverse would throw the centre far away.
     return g.completeOrthogonalDecomposition().solve(need);
 }
 
@@ -128,8 +149,7 @@ Vec3 smallest_move(const std::vector<Condition>& conditions) {
     Vec3 move = meet(active, 1);
     for (int count = 1; count < 3;) {
         const Condition* worst = nullptr;
-        // [m]; rounding of lengths of about 1 m: smaller misses count as met
-        double lack = 1e-14;
+        double lack = kMet;
         for (const Condition& c : conditions) {
             const double now = c.need - c.g.dot(move);
             if (now <= lack) continue;
@@ -147,10 +167,7 @@ Vec3 smallest_move(const std::vector<Condition>& conditions) {
 // @param nearest  becomes the nearest foot's triangle where there is one
 std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, double range,
                                   std::int32_t& nearest) {
-    // Cosine of 0.01 rad [-]: nearer directions count once. With a smaller angle the triangles of
-    // one face count as several, with a larger one faces that turn by less than it are one.
-    constexpr double kSameTouch = 0.99995;
-    thread_local std::vector<Foot> feet;  // keep their memory
+    std::vector<Foot> feet;
     tree.within(center, range, feet);
     // the nearest first: the other triangles of a face have their feet a little aside
     sort_by_distance(feet);
@@ -158,7 +175,7 @@ std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, d
     std::vector<Vec3> directions;
     directions.reserve(4);
     for (const Foot& foot : feet) {
-        if (!(foot.distance > 1e-12 * range)) continue;
+        if (!(foot.distance > kNoDistance * range)) continue;
         const Vec3 u = (foot.point - center) / foot.distance;
         const bool seen = std::any_of(directions.begin(), directions.end(),
                                       [&](const Vec3& d) { return d.dot(u) > kSameTouch; });
@@ -172,8 +189,9 @@ std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, d
 std::optional<Seat> settle_from(const SurfaceTree& tree, const Vec3& start, double radius,
                                 std::int32_t hint, int smooth_steps) {
     Vec3 c = start;
-    thread_local std::vector<Foot> feet;  // keep their memory
-    thread_local std::vector<Condition> conditions;
+    // take memory in creases only
+    std::vector<Foot> feet;
+    std::vector<Condition> conditions;
     for (int step = 0; step < kMostSteps; ++step) {
         const Foot foot = tree.closest(c, hint);
         hint = foot.triangle;
@@ -186,7 +204,7 @@ std::optional<Seat> settle_from(const SurfaceTree& tree, const Vec3& start, doub
         }
         // the first steps, and any from too far inside: along the foot's direction to the
         // distance of a radius
-        const bool direct = smooth && foot.distance > 0.1 * radius;
+        const bool direct = smooth && foot.distance > kDeepEnough * radius;
         if (direct || foot.distance > radius) {
             c += (foot.distance - radius) / foot.distance * (foot.point - c);
             continue;
@@ -195,7 +213,7 @@ std::optional<Seat> settle_from(const SurfaceTree& tree, const Vec3& start, doub
         // radius
         collect(tree, c, radius, foot.distance, feet, conditions);
         const Vec3 move = smallest_move(conditions);
-        if (!(move.norm() < 4.0 * radius)) return std::nullopt;  // a wedge too sharp to fit in
+        if (!(move.norm() < kLongestMove * radius)) return std::nullopt;
         c += move;
     }
     return std::nullopt;
@@ -223,7 +241,7 @@ std::optional<Seat> settle_in_crease(const SurfaceTree& tree, const Vec3& start,
     for (const Vec3& direction :
          near_directions(tree, start, radius * (1.0 + kNearCrease), nearest))
         sum += direction;
-    if (sum.norm() > 1e-6) pushed += kNearCrease * radius * sum.normalized();
+    if (sum.norm() > kCancel) pushed += kNearCrease * radius * sum.normalized();
     return settle_from(tree, pushed, radius, nearest, -1);
 }
 

@@ -16,6 +16,11 @@ namespace ice {
 /// degrees they would; far below, curved sides would need more spheres.
 constexpr double kFaceTurn = 1.134;
 
+/// Cosine of 0.01 rad [-]: directions of touches that are nearer count once. With a smaller angle
+/// the triangles of one face count as several, with a larger one faces that turn by less than it
+/// are one.
+constexpr double kSameTouch = 0.99995;
+
 /// Centre of a sphere that touches the surface from inside.
 struct Seat {
     Vec3 center;             ///< [m]

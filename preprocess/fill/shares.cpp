@@ -22,6 +22,17 @@ constexpr int kMostPasses = 50;
 // be positive. A larger value makes the cells of thin solids smaller, a smaller one leaves the
 // surface spheres there almost no volume.
 constexpr double kLeastRest = 0.02;
+// Least share of a surface sphere over the mean one [-], of the area and of the volume: none is
+// zero or negative. Larger takes more from the others, smaller leaves spheres nearly without a
+// share.
+constexpr double kLeastOfMean = 1e-3;
+// A share is held at its least where it falls below this much of it [-]: a half, so that one that
+// is held is not held again for rounding. Nearer to 1 more passes are made, smaller lets shares
+// become as small.
+constexpr double kHeld = 0.5;
+// Length of a normal's part in the centre plane [-] below which a cone lies athwart: the part's
+// direction has few digits. Larger leaves normals beside the plane, smaller takes rounding for one.
+constexpr double kAthwart = 1e-3;
 
 // The directions in which a sphere touches; never empty.
 std::vector<Vec3> directions_of(const SurfaceTree& tree, const SphereSet& set, std::size_t k,
@@ -38,7 +49,7 @@ std::vector<Vec3> directions_of(const SurfaceTree& tree, const SphereSet& set, s
     for (std::size_t d = 0; d < count; ++d) {
         const Vec3 image(directions[d].x(), -directions[d].y(), directions[d].z());
         if (std::none_of(directions.begin(), directions.end(),
-                         [&](const Vec3& other) { return other.dot(image) > 0.99995; }))
+                         [&](const Vec3& other) { return other.dot(image) > kSameTouch; }))
             directions.push_back(image);
     }
     return directions;
@@ -74,8 +85,8 @@ Vec3 moment_of(const SphereSet& set, std::size_t from, std::size_t to) {
 void match_moments(std::size_t count, const Eigen::Vector4d& others, bool mirror, SphereSet& set) {
     Eigen::Vector4d target = -others;
     target[0] += set.solid.volume;
-    // a share that would become negative is held at a thousandth of the mean share
-    const double least = 1e-3 * target[0] / static_cast<double>(count);
+    // a share that would become negative is held there
+    const double least = kLeastOfMean * target[0] / static_cast<double>(count);
     const std::vector<double> before(set.volumes.begin(),
                                      set.volumes.begin() + static_cast<std::ptrdiff_t>(count));
     for (int pass = 0; pass < kMostPasses; ++pass) {
@@ -101,7 +112,7 @@ void match_moments(std::size_t count, const Eigen::Vector4d& others, bool mirror
             const Vec3 from = set.centers[k] - set.solid.centroid;
             v *= 1.0 + factor[0] + factor[1] * from.x() + (mirror ? 0.0 : factor[2] * from.y()) +
                  factor[3] * from.z();
-            if (v >= 0.5 * least) continue;
+            if (v >= kHeld * least) continue;
             v = least;
             raised = true;
         }
@@ -172,7 +183,7 @@ void set_normals(const SurfaceTree& tree, const std::vector<std::int32_t>& twins
             // A sphere in the plane of symmetry is its own twin: its normal lies in that plane,
             // unless the cone is nearly athwart.
             const Vec3 flat(cone.axis.x(), 0.0, cone.axis.z());
-            if (flat.norm() > 1e-3) set.normals[k] = flat.normalized();
+            if (flat.norm() > kAthwart) set.normals[k] = flat.normalized();
         }
         set.normal_spread[k] = directions.size() > 1 ? cone.half_angle : 0.0;
         if (directions.size() > 1) creases[k] = std::move(directions);
@@ -244,7 +255,7 @@ double share_volume(double cell, bool mirror, SphereSet& set) {
     const double area = std::accumulate(set.areas.begin(), set.areas.end(), 0.0);
     set.volumes.assign(set.size(), cell);
     // a sphere without area keeps a little, so that no share is zero
-    const double floor = 1e-3 * area / static_cast<double>(surface);
+    const double floor = kLeastOfMean * area / static_cast<double>(surface);
     for (std::size_t k = 0; k < surface; ++k)
         set.volumes[k] = rest * std::max(set.areas[k], floor) / area;
     others.tail<3>() = moment_of(set, surface, set.size());

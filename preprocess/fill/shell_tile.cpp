@@ -29,6 +29,7 @@ constexpr double kStretch = 1.02;         // of a front's hexagons
 constexpr double kReach = 1.4;            // neighbours that take part in a hexagon: 1, not 1.73
 constexpr double kSeparation = 0.74;      // a hexagon's seams: nearer than this is not placed
 constexpr double kMirrorGap = 0.37;       // half of it: a sphere and its image
+constexpr double kTaken = 0.6;            // a start this near to a seat is not settled
 constexpr double kUnreached = 0.9;        // a seed this far from all seats starts a front
 constexpr double kGap = 0.635;            // corners of Voronoi cells farther away are gaps
 constexpr double kGapSeparation = 0.61;   // a gap's seat: nearer than this is not placed
@@ -48,7 +49,7 @@ constexpr std::size_t kFewFine = 16;
 constexpr std::size_t kMostConvexTests = 10000;
 // Height over the largest extent [-] up to which vertices lie in a face's plane. A larger value
 // takes hollow solids for convex ones, a smaller one convex solids for hollow ones by rounding.
-constexpr double kFlat = 1e-9;
+constexpr double kCoplanar = 1e-9;
 
 Eigen::AlignedBox3d around(const Eigen::AlignedBox3d& box, double halo) {
     return {box.min() - Vec3::Constant(halo), box.max() + Vec3::Constant(halo)};
@@ -61,7 +62,7 @@ ShellSolid::ShellSolid(const SurfaceTree& whole) : tree(whole), convex(true) {
     const TriangleMesh& mesh = tree.mesh();
     for (const Vec3& v : mesh.vertices) box.extend(v);
     if (mesh.triangles.size() * mesh.vertices.size() > kMostConvexTests) convex = false;
-    const double flat = kFlat * box.sizes().maxCoeff();
+    const double flat = kCoplanar * box.sizes().maxCoeff();
     for (std::size_t t = 0; convex && t < mesh.triangles.size(); ++t) {
         const Vec3& normal = tree.normal(static_cast<std::int32_t>(t));
         const double height = normal.dot(mesh.corner(t, 0)) + flat;
@@ -181,7 +182,7 @@ void ShellTile::surround_in(const Plane& plane, std::int32_t hint) {
     const auto try_at = [&](double angle) {
         const Vec3 start = plane.at(s * std::cos(angle), s * std::sin(angle));
         // where it will end is not far: most places that are taken are seen before settling
-        if (is_outside(start) || grid_.any_within(start, 0.6 * o_.spacing, plane.normal)) return;
+        if (is_outside(start) || grid_.any_within(start, kTaken * o_.spacing, plane.normal)) return;
         place(start, hint, kSeparation, kMirrorGap, false);
     };
     if (neighbours_.empty()) {

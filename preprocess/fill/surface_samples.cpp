@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ice {
 
@@ -52,7 +53,7 @@ void SurfaceSampler::add_strips(std::size_t t, std::vector<SurfaceSample>& out) 
 void SurfaceSampler::add_section(std::size_t t, std::vector<SurfaceSample>& out) const {
     Vec3 low[3];
     int count = 0;
-    double y_low = 1e300, y_high = -1e300;
+    double y_low = std::numeric_limits<double>::infinity(), y_high = -y_low;
     for (int k = 0; k < 3; ++k) {
         y_low = std::min(y_low, mesh_.corner(t, k).y());
         y_high = std::max(y_high, mesh_.corner(t, k).y());

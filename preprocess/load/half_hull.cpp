@@ -13,10 +13,23 @@ namespace ice {
 
 namespace {
 
-// Twice this is the distance within which weld() joins vertices.
+// Distance from the centre plane over the diagonal [-] up to which a vertex lies in it. Twice this
+// is the distance within which weld() joins vertices: with a larger value a vertex and its image
+// stay two, with a smaller one the seam's vertices are beside the plane.
+constexpr double kInPlane = 5e-7;
+// Share of the mesh's length and height [-] that open edges or flat triangles of half a hull reach
+// over in the centre plane. A transom or a hatch in the plane does not: of half a hull the centre
+// plane is nearly all there. A larger value misses halves with a step in their keel, a smaller one
+// takes bodies with a flat part at y = 0 for halves.
+constexpr double kReachesOver = 0.5;
+// Longest extent of a closed half over its breadth [-]: hulls have 1.5 and more, their halves 3. A
+// larger value misses halves of broad hulls, a smaller one takes whole bodies for halves.
+constexpr double kSlenderHalf = 2.5;
+
+// Distance from the centre plane up to which a vertex lies in it [m].
 double flatness(const TriangleMesh& mesh) {
     const Eigen::AlignedBox3d box = bounding_box(mesh);
-    return box.isEmpty() ? 0.0 : 5e-7 * box.diagonal().norm();
+    return box.isEmpty() ? 0.0 : kInPlane * box.diagonal().norm();
 }
 
 bool in_plane(const TriangleMesh& mesh, std::size_t t, int axis, double flat) {
@@ -73,14 +86,12 @@ std::vector<Edge> open_edges_in_plane(const TriangleMesh& mesh, int axis, double
     return open;
 }
 
-// Whether something in the plane reaches over half of the mesh both ways.
-// A transom or a hatch in the plane does not: of half a hull the centre plane is nearly all
-// there.
+// Whether something in the plane reaches over kReachesOver of the mesh both ways.
 bool reaches_far(const Eigen::AlignedBox3d& part, const Eigen::AlignedBox3d& whole, int axis) {
     if (part.isEmpty()) return false;
     const Vec3 p = part.sizes(), w = whole.sizes();
     const int a = (axis + 1) % 3, b = (axis + 2) % 3;
-    return p[a] >= 0.5 * w[a] && p[b] >= 0.5 * w[b];
+    return p[a] >= kReachesOver * w[a] && p[b] >= kReachesOver * w[b];
 }
 
 }  // namespace
@@ -108,7 +119,7 @@ HalfHull looks_like_half_hull(const TriangleMesh& mesh, int axis) {
     // An open half has a rim of open edges along the centre plane, a closed one a flat wall there.
     // A whole, symmetric body that merely begins at y = 0 has neither over most of its length.
     const bool far_open = reaches_far(open, box, axis), far_closed = reaches_far(closed, box, axis);
-    const bool slender = box.sizes().maxCoeff() >= 2.5 * box.sizes()[axis];
+    const bool slender = box.sizes().maxCoeff() >= kSlenderHalf * box.sizes()[axis];
     if (far_open && !far_closed)
         half.kind = HalfHull::Kind::open;
     else if (far_closed && !far_open && slender && asymmetry(mesh, axis) > kSymmetric)

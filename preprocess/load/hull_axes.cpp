@@ -3,11 +3,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
+#include <span>
 
 #include "preprocess/load/symmetry.hpp"
 
 namespace ice {
+
+namespace {
+
+// Cosines [-] of a face's normal to an axis, 1 degree from square to it and from along it: faces
+// between are oblique. A larger angle takes hulls with flat sides for prisms, a smaller one misses
+// prisms whose coordinates are rounded.
+constexpr double kSquareTo = 0.02, kAlong = 0.9998;
+// Oblique faces of a prism over its surface [-]: a larger share takes hulls with a long midbody for
+// prisms, a smaller one misses prisms with rounded edges.
+constexpr double kOblique = 0.01;
+// Longest extent of a hull over the next [-]: shorter meshes may be floes or boxes, whose axes
+// nobody can tell. A larger value leaves broad barges without axes, a smaller one gives axes to
+// floes.
+constexpr double kSlender = 1.5;
+// Sections whose breadths are compared, as shares of the length from each end [-]: some near the
+// ends, which themselves may be a stem or a transom, and one at the very ends. Farther in, both
+// ends are as broad; nearer, a stem's rounding or a bulb decides.
+constexpr double kNearEnds[] = {0.02, 0.05, 0.08, 0.11, 0.14}, kAtTips[] = {0.005};
+// Level sections that are compared, as shares of the depth [-]: without the keel and the rim, where
+// plates and rails decide. More find narrower waists, and take longer.
+constexpr double kLevels[] = {0.1, 0.3, 0.5, 0.7, 0.9};
+
+}  // namespace
 
 bool is_prism(const TriangleMesh& mesh, int axis) {
     double area = 0.0, oblique = 0.0;
@@ -16,9 +39,9 @@ bool is_prism(const TriangleMesh& mesh, int axis) {
         const double part = a.norm(), cosine = std::abs(a[axis]) / part;
         if (!(part > 0.0)) continue;
         area += part;
-        if (cosine > 0.02 && cosine < 0.9998) oblique += part;  // 1 degree from either
+        if (cosine > kSquareTo && cosine < kAlong) oblique += part;
     }
-    return oblique < 0.01 * area;
+    return oblique < kOblique * area;
 }
 
 namespace {
@@ -53,8 +76,7 @@ std::optional<HullAxes> find_hull_axes(const TriangleMesh& mesh) {
     HullAxes axes;
     size.maxCoeff(&axes.length);
     const int b = (axes.length + 1) % 3, c = (axes.length + 2) % 3;
-    // shorter meshes may be floes or boxes, whose axes nobody can tell
-    if (size[axes.length] < 1.5 * std::max(size[b], size[c])) return std::nullopt;
+    if (size[axes.length] < kSlender * std::max(size[b], size[c])) return std::nullopt;
     const double off_b = asymmetry(mesh, b), off_c = asymmetry(mesh, c);
     // one plane of symmetry along the length, but not two: a box or a spindle has no upper side
     if (std::min(off_b, off_c) > kSymmetric || std::max(off_b, off_c) < kLopsided)
@@ -71,7 +93,7 @@ namespace {
 // Breadths of sections near the lower end over those near the upper end, by their shares of the
 // length from each end.
 double breadth_ratio(const TriangleMesh& mesh, const HullAxes& axes,
-                     std::initializer_list<double> shares) {
+                     std::span<const double> shares) {
     const Eigen::AlignedBox3d box = bounding_box(mesh);
     const double from = box.min()[axes.length], to = box.max()[axes.length];
     double low = 0.0, high = 0.0;
@@ -86,19 +108,18 @@ double breadth_ratio(const TriangleMesh& mesh, const HullAxes& axes,
 }  // namespace
 
 double fineness_ratio(const TriangleMesh& mesh, const HullAxes& axes) {
-    // some stations near each end: the ends themselves may be a stem or a transom
-    return breadth_ratio(mesh, axes, {0.02, 0.05, 0.08, 0.11, 0.14});
+    return breadth_ratio(mesh, axes, kNearEnds);
 }
 
 double tip_ratio(const TriangleMesh& mesh, const HullAxes& axes) {
-    return breadth_ratio(mesh, axes, {0.005});
+    return breadth_ratio(mesh, axes, kAtTips);
 }
 
 bool narrows_upwards(const TriangleMesh& mesh, const HullAxes& axes, bool upwards) {
     const Eigen::AlignedBox3d box = bounding_box(mesh);
     const double from = box.min()[axes.vertical], depth = box.max()[axes.vertical] - from;
     double lowest = 0.0, last = INFINITY;
-    for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    for (const double share : kLevels) {
         const double station = from + (upwards ? share : 1.0 - share) * depth;
         const double now = section_width(mesh, axes.vertical, station, axes.length) *
                            section_width(mesh, axes.vertical, station, axes.breadth);

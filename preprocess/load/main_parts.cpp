@@ -11,20 +11,20 @@ namespace ice {
 
 namespace {
 
-// Least extent of a part over its diagonal [-] up to which it is a flat sheet: far above rounding,
-// far below the thickness of a plate. A larger value takes plates for sheets, a smaller one sheets
-// with rounded corners for bodies.
-constexpr double kFlat = 1e-6;
 // Share of the diagonal [-] by which a sheet may reach beyond the rest: a deck with a rail does, a
 // sea plane reaches many times farther.
 constexpr double kBeyond = 0.05;
+// Volume of a box around a part over that of the part's own box [-], twice as large along each
+// axis, from which it is the domain of a flow computation. A larger value keeps narrow domains, a
+// smaller one leaves out boxes around the ship's own parts, such as a house around a funnel.
+constexpr double kDomain = 8.0;
 
 // A part of the mesh, by its measures.
 struct Part {
     Eigen::AlignedBox3d box;
     double area = 0.0;
     bool on_box = true;  // all corners lie in faces of its box
-    bool flat() const { return box.sizes().minCoeff() <= kFlat * box.diagonal().norm(); }
+    bool flat() const { return box.sizes().minCoeff() <= kFlatSheet * box.diagonal().norm(); }
 };
 
 // For each vertex the number of its part; parts are counted in the order of their first vertices.
@@ -78,7 +78,7 @@ std::vector<Part> measure_parts(const TriangleMesh& mesh, const std::vector<std:
             const Vec3 p = mesh.corner(t, k);
             const Eigen::AlignedBox3d& box = of(t).box;
             const double in = std::min((p - box.min()).minCoeff(), (box.max() - p).minCoeff());
-            if (in > kFlat * box.diagonal().norm()) of(t).on_box = false;
+            if (in > kFlatSheet * box.diagonal().norm()) of(t).on_box = false;
         }
     return parts;
 }
@@ -98,8 +98,7 @@ std::optional<TriangleMesh> main_parts(const TriangleMesh& mesh, std::int64_t& l
     const auto is_around = [&](std::size_t p) {
         return parts[p].on_box && std::any_of(present.begin(), present.end(), [&](std::size_t q) {
                    return q != p && !parts[q].flat() && parts[p].box.contains(parts[q].box) &&
-                          // twice as large along each axis
-                          parts[p].box.volume() > 8.0 * parts[q].box.volume();
+                          parts[p].box.volume() > kDomain * parts[q].box.volume();
                });
     };
     std::vector<std::size_t> solid;

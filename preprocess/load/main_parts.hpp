@@ -7,6 +7,11 @@
 
 namespace ice {
 
+/// Least extent of a part over its diagonal [-] up to which it is a flat sheet: far above rounding,
+/// far below the thickness of a plate. A larger value takes plates for sheets, a smaller one sheets
+/// and boxes with rounded corners for bodies.
+constexpr double kFlatSheet = 1e-6;
+
 /// The part of a mesh from which units and axes are guessed: the largest part and its surroundings.
 ///
 /// Parts are triangles that share corners (equal coordinates). Left out are parts farther from the

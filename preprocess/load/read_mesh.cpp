@@ -31,11 +31,16 @@ void check_area(const TriangleMesh& mesh, const std::filesystem::path& file) {
             "export the surface of a body as a mesh");
 }
 
+// Share of the breadth beyond the centre plane [-] from which a hull lies on both sides of it. A
+// larger value takes hulls beside the plane for halves, a smaller one halves with a rudder for
+// whole hulls.
+constexpr double kBothSides = 0.1;
+
 // Half a hull may reach a little beyond its centre plane (a shaft, a rudder), a whole one does so
 // by half its breadth.
 bool lies_on_both_sides(const TriangleMesh& mesh) {
     const Eigen::AlignedBox3d box = bounding_box(mesh);
-    return std::min(-box.min().y(), box.max().y()) > 0.1 * box.sizes().y();
+    return std::min(-box.min().y(), box.max().y()) > kBothSides * box.sizes().y();
 }
 
 // assimp keeps coordinates as floats: far from the origin, in map coordinates say, they are too

@@ -14,7 +14,7 @@ namespace {
 
 // Volume of a shell that counts as none, over its area to the power of 3/2 [-] (a sphere has
 // 0.094). Rounding of a doubled sheet is below it; a larger value would drop thin plates.
-constexpr double kFlat = 1e-9;
+constexpr double kNoVolume = 1e-9;
 
 struct Shell {
     std::vector<std::int32_t> triangles;
@@ -60,7 +60,7 @@ int winding(const TriangleMesh& mesh, const Shell& shell, const Vec3& p) {
 }
 
 bool is_flat(const Shell& shell) {
-    return std::abs(shell.volume) <= kFlat * std::pow(shell.area, 1.5);
+    return std::abs(shell.volume) <= kNoVolume * std::pow(shell.area, 1.5);
 }
 
 }  // namespace

@@ -9,19 +9,12 @@
 
 #include "common/geometry/winding_number.hpp"
 #include "preprocess/clean/find_parts.hpp"
+#include "preprocess/repair/cap_limits.hpp"
 
 namespace ice {
 
 namespace {
 
-// Limits above which caps are refused (judge_caps.hpp). Larger ones accept more meshes and leave
-// more of the volume to a guess; smaller ones refuse meshes whose volume is known well enough.
-// All are shares [-].
-constexpr double kDoubt = 0.005;    // of the volume, in doubt by one cap
-constexpr double kSuspect = 0.005;  // of the surface: largest cap in a file that seems cut off
-constexpr double kContinued = 0.2;  // of the surface: all continued faces together
-constexpr double kLoose = 0.05;     // of the surface: all small caps together
-constexpr double kEnd = 0.0005;     // of the surface: largest cap of guessed form at an end
 // Edges round a face or two, or round one vertex, that are missing [-]: such a hole has a known
 // form. A larger value takes open ends of coarse meshes for such holes, a smaller one refuses
 // meshes that lack a face at an end.
@@ -49,7 +42,7 @@ constexpr double kStep = 1e-3;
 constexpr double kJustOutside = 1e-4;
 // Cosine of one degree [-]: faces of one plane. A larger angle takes curved surfaces for flat ones,
 // a smaller one faces of one plane for several.
-const double kFlat = std::cos(std::numbers::pi / 180.0);
+const double kOneDegree = std::cos(std::numbers::pi / 180.0);
 
 struct Plane {
     Vec3 normal;
@@ -76,7 +69,7 @@ public:
     // A cap of guessed form where the solid ends along its length: how much farther it went, a
     // whole stem perhaps, nothing tells, however little volume that had.
     bool cuts_an_end(const Cap& cap, const CapVerdict& verdict) const {
-        if (verdict.kind != CapKind::small || verdict.area <= kEnd * surface_ ||
+        if (verdict.kind != CapKind::small || verdict.area <= CapLimits::kEnd * surface_ ||
             cap.rim.size() <= kFewEdges)
             return false;
         int along = 0;
@@ -118,7 +111,7 @@ public:
         // The volume that a surface turning by this mean slope at the rim might have had beyond the
         // cap (judge_caps.hpp).
         if (cap.perimeter > 0.0) out.doubt = guessed * out.area / cap.perimeter * mean;
-        if (guessed <= 1e-6 * out.area) out.kind = CapKind::continued;
+        if (guessed <= CapLimits::kNoGuess * out.area) out.kind = CapKind::continued;
         return out;
     }
 
@@ -151,8 +144,8 @@ public:
         }
         // A deck faces upwards, its rim lies on walls, runs without steps, and nothing of its part
         // is above it.
-        return sum.z() >= 0.9 * area && walls <= 0.3 * length && walls >= -0.6 * length &&
-               !has_steps(cap) && spans_and_tops(cap);
+        return sum.z() >= CapLimits::kLevel * area && walls <= CapLimits::kLeansIn * length &&
+               walls >= -CapLimits::kLeansOut * length && !has_steps(cap) && spans_and_tops(cap);
     }
 
 private:
@@ -170,14 +163,14 @@ private:
         std::vector<Plane> planes;
         for (const RimEdge& edge : cap.rim) {
             const Vec3 n = normal(edge.neighbour);
-            if (normal(edge.patch).dot(n) < kFlat) continue;
+            if (normal(edge.patch).dot(n) < kOneDegree) continue;
             const double offset = n.dot(mesh_.corner(static_cast<std::size_t>(edge.patch), 0));
             const bool known = std::any_of(planes.begin(), planes.end(), [&](const Plane& p) {
-                return p.normal.dot(n) > kFlat && std::abs(p.offset - offset) < 1e-4 * size_;
+                return p.normal.dot(n) > kOneDegree &&
+                       std::abs(p.offset - offset) < CapLimits::kOnePlane * size_;
             });
             if (!known) planes.push_back({n, offset});
-            // bounds the time: a rim of curved faces has hundreds of planes
-            if (planes.size() == 32) break;
+            if (planes.size() == CapLimits::kMostPlanes) break;
         }
         return planes;
     }
@@ -185,8 +178,9 @@ private:
     bool continues(std::size_t t, const std::vector<Plane>& planes) const {
         const Vec3 area = mesh_.area_vector(t);
         return std::any_of(planes.begin(), planes.end(), [&](const Plane& p) {
-            return area.dot(p.normal) >= kFlat * area.norm() &&
-                   std::abs(p.normal.dot(mesh_.corner(t, 0)) - p.offset) < 1e-4 * size_;
+            return area.dot(p.normal) >= kOneDegree * area.norm() &&
+                   std::abs(p.normal.dot(mesh_.corner(t, 0)) - p.offset) <
+                       CapLimits::kOnePlane * size_;
         });
     }
 
@@ -209,14 +203,15 @@ private:
             if (parts_.of_triangle[t] != parts_.of_triangle[first]) continue;
             for (int k = 0; k < 3; ++k) {
                 part.extend(mesh_.corner(t, k));
-                if (mesh_.corner(t, k).z() > rim.min().z() + 1e-6 * size_)
+                if (mesh_.corner(t, k).z() > rim.min().z() + CapLimits::kMayStandAbove * size_)
                     higher.push_back(mesh_.corner(t, k));
             }
         }
         for (int d = 0; d < 2; ++d)
-            if (rim.sizes()[d] < 0.6 * part.sizes()[d]) return false;
-        return std::none_of(higher.begin(), higher.end(),
-                            [&](const Vec3& p) { return p.z() > height(cap, p) + 1e-3 * size_; });
+            if (rim.sizes()[d] < CapLimits::kSpans * part.sizes()[d]) return false;
+        return std::none_of(higher.begin(), higher.end(), [&](const Vec3& p) {
+            return p.z() > height(cap, p) + CapLimits::kStandsAbove * size_;
+        });
     }
 
     // Of the cap above or below p; where it does not reach, infinity.
@@ -255,9 +250,9 @@ std::vector<CapVerdict> judge_caps(const TriangleMesh& mesh, const std::vector<C
         CapVerdict& cap_is = out.back();
         // Tests by winding numbers cost time: a cap too small to change the result is accepted
         // without them.
-        const bool matters =
-            cap_is.doubt > kTrifle * judge.volume() || cap_is.area > kLoose * judge.surface();
-        if (suspect && cap_is.area > kSuspect * judge.surface())
+        const bool matters = cap_is.doubt > kTrifle * judge.volume() ||
+                             cap_is.area > CapLimits::kLoose * judge.surface();
+        if (suspect && cap_is.area > CapLimits::kSuspect * judge.surface())
             cap_is.kind = CapKind::guess;
         else if (matters && judge.is_hidden(cap))
             cap_is.kind = CapKind::hidden;
@@ -272,16 +267,17 @@ std::vector<CapVerdict> judge_caps(const TriangleMesh& mesh, const std::vector<C
     // Each cap by itself and all together: many small caps may hide a large loss.
     const bool each = std::all_of(out.begin(), out.end(), [&](const CapVerdict& cap) {
         return cap.kind == CapKind::deck || cap.kind == CapKind::hidden ||
-               cap.doubt <= kDoubt * judge.volume();
+               cap.doubt <= CapLimits::kDoubt * judge.volume();
     });
     const bool stand = each && doubt <= kMostDoubt * judge.volume() &&
-                       loose <= kLoose * judge.surface() &&
-                       continued <= kContinued * judge.surface();
+                       loose <= CapLimits::kLoose * judge.surface() &&
+                       continued <= CapLimits::kContinued * judge.surface();
     if (stand) return out;
     // name the cap that uses the largest share of its allowance
     const auto weight = [&](const CapVerdict& cap) {
-        const double of_area = cap.kind == CapKind::continued ? kContinued : kLoose;
-        return std::max(cap.doubt / (kDoubt * judge.volume()),
+        const double of_area =
+            cap.kind == CapKind::continued ? CapLimits::kContinued : CapLimits::kLoose;
+        return std::max(cap.doubt / (CapLimits::kDoubt * judge.volume()),
                         cap.area / (of_area * judge.surface()));
     };
     CapVerdict* heaviest = nullptr;

@@ -35,15 +35,30 @@ constexpr double kWindingDiffers = 0.02;  // of the volume: caps against the ope
 // Over a sheer line the surface where the winding number is a half sags between the ends: 3.7 % of
 // the volume at a sheer of a quarter of the depth.
 constexpr double kDeckDiffers = 0.05;
-constexpr double kCapsMatter = 0.005;      // of the surface: below, caps need no second opinion
-constexpr double kNoisy = 0.05;            // of the triangles: they cross their own part
-constexpr std::size_t kNoisyCount = 100;   // at least: of a few large triangles all may cross
-constexpr double kContourError = 0.01;     // of the volume
-constexpr double kVoid = 0.005;            // of the volume: voids that parts enclose together
-constexpr double kWrapOffset = 1000.0;     // diagonal over the offset of the wrap
+constexpr double kCapsMatter = 0.005;     // of the surface: below, caps need no second opinion
+constexpr double kNoisy = 0.05;           // of the triangles: they cross their own part
+constexpr std::size_t kNoisyCount = 100;  // at least: of a few large triangles all may cross
+// Of the volume, by which a contoured surface may differ from the rows' sum. Larger accepts a
+// contour that has lost thin parts.
+constexpr double kContourError = 0.01;
+constexpr double kVoid = 0.005;  // of the volume: voids that parts enclose together
+// Diagonal over the offset of the wrap. Larger lays the wrap nearer to the surface, with more and
+// smaller triangles, and takes longer.
+constexpr double kWrapOffset = 1000.0;
+// Diagonal over the least radius of the wrap's ball. Larger keeps smaller details and enters
+// smaller openings.
+constexpr double kWrapBall = 100.0;
+// Radius of that ball over the widest opening's width: over a half, since it must not fall through.
+// Larger rounds off more of the hull; at a half rounding decides whether it falls through.
+constexpr double kOverOpening = 0.75;
 constexpr std::size_t kMostPairs = 50000;  // pairs that are cut: 0.2 ms each, 10 s in all
-constexpr int kRounds = 3;                 // of cutting: rounding may let cut pieces cross again
-constexpr double kCollapsed = 0.5;         // of the volume the winding number gives
+// Of cutting: rounding may let cut pieces cross again. More cut on where each round leaves
+// crossings, which the next rung resolves faster.
+constexpr int kRounds = 3;
+// Of the volume that the winding number gives: a wrap with less has gone in through an opening. A
+// larger value refuses wraps of surfaces whose winding number is unsure, a smaller one accepts
+// the plates alone.
+constexpr double kCollapsed = 0.5;
 // Rows per side of the box that measure the volume of the winding number, to which a solid is held
 // with kContourError. Fewer make the error of sampling larger (measure_rows), more take time with
 // their square.
@@ -301,7 +316,7 @@ private:
 
     // Last rung of `auto`: only where the winding number agrees.
     std::optional<TriangleMesh> wrap_last(const TriangleMesh& mesh) {
-        const double alpha = diagonal(mesh) / 100.0;
+        const double alpha = diagonal(mesh) / kWrapBall;
         TriangleMesh wrapped = wrap_solid(mesh, alpha, diagonal(mesh) / kWrapOffset);
         if (!verify_solid(wrapped).good ||
             compare_windings(mesh, wrapped).differs > kWindingDiffers)
@@ -316,9 +331,8 @@ private:
         const ClosedSurface closed = close_surface(mesh, options_, tried);
         if (closed.open.triangles.empty())
             throw refusal("the volume is zero", "export the surface of a body, not a flat sheet");
-        // The ball of the shrink wrap must not fall through the widest opening that is no deck: its
-        // diameter is 1.5 times as wide.
-        const double alpha = std::max(diagonal(mesh) / 100.0, 0.75 * closed.widest);
+        // The ball of the shrink wrap must not fall through the widest opening that is no deck.
+        const double alpha = std::max(diagonal(mesh) / kWrapBall, kOverOpening * closed.widest);
         TriangleMesh wrapped = wrap_solid(closed.unsure, alpha, diagonal(mesh) / kWrapOffset);
         const SolidProof proof = verify_solid(wrapped);
         if (!proof.good) throw refusal("shrink-wrapping fails: " + proof.fault);

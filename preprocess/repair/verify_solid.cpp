@@ -23,6 +23,9 @@ constexpr double kRowError = 0.005;
 // Rows per side of the box, tried in turn until they agree. The last takes a hundred times as long
 // as the first and is reached by slender solids alone.
 constexpr int kRows[] = {100, 300, 1000};
+// Between these winding numbers [-] a place is near a hole: near 0 and 1 that of an open surface is
+// clear. A wider range counts places farther from holes as unclear, a narrower one fewer.
+constexpr double kClearlyOut = 0.2, kClearlyIn = 0.8;
 
 // Van der Corput sequence in a base: with bases 2, 3, 5 it fills the box evenly (Halton).
 double radical_inverse(std::uint64_t k, std::uint64_t base) {
@@ -88,12 +91,10 @@ WindingComparison compare_windings(const TriangleMesh& open, const TriangleMesh&
         const Vec3 unit(radical_inverse(k + 1, 2), radical_inverse(k + 1, 3),
                         radical_inverse(k + 1, 5));
         const Vec3 p = box.min() + box.sizes().cwiseProduct(unit);
-        // near 0 and 1 the winding number of an open surface is clear; between, the place is near a
-        // hole
         const double w = std::abs(first.at(p));
         found[k] = static_cast<std::uint8_t>((first.contains(p) ? in_first : 0) |
                                              (second.contains(p) ? in_second : 0) |
-                                             (w > 0.2 && w < 0.8 ? vague : 0));
+                                             (w > kClearlyOut && w < kClearlyIn ? vague : 0));
     });
     std::array<double, 8> count{};
     for (const std::uint8_t f : found) count[f] += 1.0;

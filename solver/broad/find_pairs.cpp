@@ -5,7 +5,6 @@
 #include <span>
 
 #include "common/base/assert.hpp"
-#include "solver/shape/sphere_grid.hpp"
 
 namespace ice {
 
@@ -71,7 +70,7 @@ void find_floes(const Scene& scene, const Eigen::AlignedBox3d& box,
 
 // The pairs of the ship and `floes`, those within reach_of_motion() and perhaps others.
 void find_pairs_among(const Scene& scene, double margin, std::span<const std::int32_t> floes,
-                      std::vector<BodyPair>& out) {
+                      PlacedFloes& work, std::vector<BodyPair>& out) {
     out.clear();
     const Bodies& b = scene.bodies;
     // The ship is one long body: its box against each floe. Floes are many of about one size: a
@@ -79,22 +78,20 @@ void find_pairs_among(const Scene& scene, double margin, std::span<const std::in
     for (const std::int32_t i : floes)
         if (near_ship(scene, static_cast<std::size_t>(i), margin)) out.push_back({kShipId, i});
 
-    thread_local std::vector<std::int32_t> placed;
-    thread_local std::vector<Vec3> places;
-    thread_local SphereGrid grid;  // all keep their memory
+    std::vector<std::int32_t>& placed = work.floes;
     placed.clear();
-    places.clear();
+    work.places.clear();
     for (const std::int32_t i : floes) {
         if (!b.position[i].allFinite()) continue;  // a run that fails says so after the step
         placed.push_back(i);
-        places.push_back(b.position[i]);
+        work.places.push_back(b.position[i]);
     }
     const double largest = largest_radius(scene);
-    grid.build(places, 2.0 * largest + margin);
+    work.grid.build(work.places, 2.0 * largest + margin);
     for (const std::int32_t i : placed) {
         if (b.held[i]) continue;  // two held floes are no pair: moving ones search
         const double range = bounding_radius(scene, static_cast<std::size_t>(i)) + largest + margin;
-        grid.for_each_near(b.position[i], range, [&](std::int32_t item) {
+        work.grid.for_each_near(b.position[i], range, [&](std::int32_t item) {
             const std::int32_t j = placed[static_cast<std::size_t>(item)];
             // a pair of two moving ones is reported by the lower
             if (j == i || (!b.held[j] && j < i)) return;
@@ -110,8 +107,9 @@ void find_pairs_among(const Scene& scene, double margin, std::span<const std::in
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out) {
     ICE_ASSERT(std::is_sorted(scene.bodies.moving.begin(), scene.bodies.moving.end()));
     std::vector<std::int32_t> floes;
+    PlacedFloes work;
     find_floes(scene, reach_of_motion(scene, margin), floes);
-    find_pairs_among(scene, margin, floes, out);
+    find_pairs_among(scene, margin, floes, work, out);
 }
 
 namespace {
@@ -168,7 +166,7 @@ void PairList::update(const Scene& scene, const MotionBounds& motion, double mar
         find_floes(scene, vicinity_, floes_);
         bodies_ = scene.bodies.size();
     }
-    find_pairs_among(scene, reach, floes_, pairs_);
+    find_pairs_among(scene, reach, floes_, placed_, pairs_);
     moving_ = scene.bodies.moving;
     ship_path_ = motion.path(kShipId);
     if (drifting_ >= 0) drift_path_ = motion.path(drifting_);

@@ -7,6 +7,7 @@
 
 #include "solver/broad/motion_bounds.hpp"
 #include "solver/scene/bodies.hpp"
+#include "solver/shape/sphere_grid.hpp"
 
 namespace ice {
 
@@ -30,6 +31,13 @@ namespace reference {
 /// Finds pairs by testing all: the definition and the oracle of the tests.
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
 }  // namespace reference
+
+/// Work memory of a search for pairs: the floes whose position is a number, and a grid of them.
+struct PlacedFloes {
+    std::vector<std::int32_t> floes;
+    std::vector<Vec3> places;  ///< [m]
+    SphereGrid grid;
+};
 
 /// The pairs of bodies that may touch within a step: a neighbour list, renewed when a path exceeds
 /// the skin. A renewal costs as much as there are floes in the box of all moving bodies. Held floes
@@ -55,6 +63,7 @@ private:
     Eigen::AlignedBox3d vicinity_;               // of all moving bodies
     std::vector<std::int32_t> floes_;            // in it, held ones too
     std::size_t bodies_ = 0;                     // that were looked at for them
+    PlacedFloes placed_;                         // of these floes, when the list was made
 };
 
 }  // namespace ice

@@ -17,12 +17,16 @@ constexpr double kLargeTurn = 0.5;
 // larger value gives the same.
 constexpr double kAnywhere = 1e9;
 
-// An upper bound of the angle of the turn from p to q [rad]: |q - p| is 2 sin(angle / 4) for the
-// nearer of +-p, so the angle is 2 |q - p| for small turns and at most 1 % more below kLargeTurn.
+// The angle of a turn is at most this many times |q - p| [-]: 2 for small turns and at most 1 % more
+// below kLargeTurn, as |q - p| is 2 sin(angle / 4) for the nearer of +-p. Larger renews lists
+// earlier; with a smaller one it is no bound, and contacts could be missed.
+constexpr double kTurnOfChord = 2.02;
+
+// An upper bound of the angle of the turn from p to q [rad].
 double turn_between(const Quaternion& p, const Quaternion& q) {
     const double apart =
         std::min((q.coeffs() - p.coeffs()).norm(), (q.coeffs() + p.coeffs()).norm());
-    return apart > 0.5 * kLargeTurn ? kAnywhere : 2.02 * apart;
+    return apart > 0.5 * kLargeTurn ? kAnywhere : kTurnOfChord * apart;
 }
 
 }  // namespace

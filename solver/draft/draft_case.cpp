@@ -42,7 +42,7 @@ constexpr double kStepShare = 0.2;
 constexpr double kFieldShare = 0.95;
 // Travel in ship's lengths [-] below which no case is drafted. A larger value refuses more fields,
 // a smaller one drafts runs whose means say little.
-constexpr double kFewest = 0.1;
+constexpr double kShortestTravel = 0.1;
 
 // The number rounded to a count of digits.
 double rounded(double x, int digits) { return std::stod(fmt::format("{:.{}g}", x, digits)); }
@@ -122,7 +122,7 @@ void plan_course(const World& w, Draft& draft) {
     // The ice must last for the whole travel: the run ends before the hull leaves the field or
     // reaches ice that cannot move.
     const double travel = std::min(kLengths * ship.length + course.clearance, room);
-    if (travel < kFewest * ship.length)
+    if (travel < kShortestTravel * ship.length)
         throw bad_input(
             "--new",
             fmt::format("the field has room for {:.3g} m of travel, {:.2g} of the "

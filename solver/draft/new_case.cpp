@@ -10,6 +10,7 @@
 #include "common/cli/console.hpp"
 #include "common/cli/output_files.hpp"
 #include "common/cli/sibling_program.hpp"
+#include "common/formats/hexagonal_layer.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "common/formats/summary_file.hpp"
 #include "common/toml/recognise_input.hpp"
@@ -79,8 +80,8 @@ fs::path make_spheres(const fs::path& mesh, const std::vector<std::string>& opti
     spherize({"--check", "--json", report.string()});
     const double area = read_json_numbers(report).at("area_m2");
     fs::remove(report);
-    // each sphere of a hexagonal packing covers spacing^2 / 1.155
-    const double spacing = std::stod(fmt::format("{:.2g}", std::sqrt(1.155 * area / kSpheres)));
+    const double spacing =
+        std::stod(fmt::format("{:.2g}", std::sqrt(kHexagonal * area / kSpheres)));
     spherize({"-r", fmt::format("{:.2g}", spacing / kSpacing), "-s", fmt::format("{:g}", spacing),
               "--mode", "surface", "-o", out.string()});
     say(fmt::format("wrote {}", out.string()));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
@@ -135,13 +136,11 @@ void fill_table(const Sources& s, const TriangleMesh& mesh, const FlowOptions& o
 
 // The point of the panels nearest to p, a little into the water.
 Vec3 off_panels(const PanelBody& body, const Vec3& p, double off) {
-    // beyond any hull: the first panel is nearer
-    double least = 1e300;
+    double least = std::numeric_limits<double>::infinity();
     Vec3 nearest = p;
     for (const SourcePanel& panel : body.panels) {
-        // A sphere around the panel rules most of them out before the exact distance; far_squared
-        // is the square of 6 of its radii (source_panel.cpp).
-        const double radius = std::sqrt(panel.far_squared) / 6.0;
+        // A sphere around the panel rules most of them out before the exact distance.
+        const double radius = std::sqrt(panel.far_squared) / kFarRadii;
         const double from_centre = (panel.centre - p).norm();
         if (from_centre - radius >= least) continue;
         const Vec3 on =
@@ -155,7 +154,7 @@ Vec3 off_panels(const PanelBody& body, const Vec3& p, double off) {
 }
 
 Vec3 off_lines(const std::vector<SourceLine>& lines, const Vec3& p, double off) {
-    double least = 1e300;
+    double least = std::numeric_limits<double>::infinity();
     Vec3 nearest = p;
     for (const SourceLine& line : lines) {
         const double share = std::clamp((p - line.from).dot(line.along), 0.0, line.length);
@@ -210,7 +209,8 @@ void make_2d(const TriangleMesh& prism, const FlowOptions& options, HullFlow& ou
     out.solve_seconds = timer.seconds();
     out.table.panels = static_cast<std::int64_t>(flow.lines.size());
     note(flow, out);
-    Sources s{Vec3::Constant(1e300), Vec3::Constant(-1e300), 0.0,
+    const Vec3 beyond = Vec3::Constant(std::numeric_limits<double>::infinity());
+    Sources s{beyond, -beyond, 0.0,
               [&](std::span<const Vec3> points) { return flow_at(flow, points); },
               [&](const Vec3& p, double off) { return off_lines(flow.lines, p, off); }};
     // a section's box from its lines; y is 0
@@ -234,7 +234,7 @@ void make_2d(const TriangleMesh& prism, const FlowOptions& options, HullFlow& ou
 HullFlow make_hull_flow(const TriangleMesh& hull, int dimension, const FlowOptions& options) {
     HullFlow out;
     // the water is `water` above the mesh's origin, the keel its lowest vertex
-    double keel = 1e300;
+    double keel = std::numeric_limits<double>::infinity();
     for (const Vec3& v : hull.vertices) keel = std::min(keel, v.z());
     out.table.draught = options.water - keel;
     if (dimension == 2)

@@ -6,9 +6,11 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
+#include "solver/flow/equation_solver.hpp"
 #include "solver/flow/flow_residual.hpp"
 #include "solver/flow/own_functions.hpp"
 
@@ -78,7 +80,7 @@ SourceLine make_line(const Vec3& from, const Vec3& to, const Vec3& normal) {
 std::vector<SourceLine> make_wetted_lines(const TriangleMesh& prism, double water, double longest) {
     std::vector<SourceLine> wet;
     // The section is the prism's outline: each side once, as far as it is under water.
-    double low = 1e300, high = -1e300, first_y = 1e300;
+    double low = std::numeric_limits<double>::infinity(), high = -low, first_y = low;
     for (const Vec3& v : prism.vertices) first_y = std::min(first_y, v.y());
     for (std::size_t t = 0; t < prism.triangles.size(); ++t) {
         const Vec3 normal = prism.area_vector(t).normalized();
@@ -143,11 +145,12 @@ LineFlow solve_lines(std::vector<SourceLine> lines) {
     // Not symmetric but well conditioned (a Fredholm equation of the second kind): an iteration
     // takes a few tens of products where elimination takes n.
     Eigen::BiCGSTAB<Eigen::MatrixXd, Eigen::IdentityPreconditioner> solver(matrix);
-    solver.setTolerance(1e-10);
-    solver.setMaxIterations(200);
+    solver.setTolerance(kSolverTolerance);
+    solver.setMaxIterations(kMostIterations);
     const Eigen::VectorXd strength = solver.solve(right);
     if (solver.info() != Eigen::Success)
-        throw run_failed("the flow around the hull", "has no solution within 200 iterations",
+        throw run_failed("the flow around the hull",
+                         fmt::format("has no solution within {} iterations", kMostIterations),
                          "look for thin parts of the section, or set flow.model = \"none\"");
     flow.strength.assign(strength.data(), strength.data() + n);
     check_line_flow(flow);

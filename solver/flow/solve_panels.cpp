@@ -9,6 +9,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
+#include "solver/flow/equation_solver.hpp"
 #include "solver/flow/flow_residual.hpp"
 
 namespace ice {
@@ -19,9 +20,6 @@ constexpr std::size_t kBlock = FluxTargets::kCount;
 // Points that a thread takes at a time [-]: fewer cost more hand-overs, more leave threads waiting
 // at the end. Results do not depend on it.
 constexpr std::size_t kPoints = 64;
-// Iterations of the linear solver at most [-]: hulls take 20 or fewer, so more shows a mesh whose
-// equations have no good solution. Larger only delays the error.
-constexpr int kMostIterations = 200;
 
 // Eight panels from `first` on; beyond the last the last once more.
 FluxTargets targets_of(const std::vector<SourcePanel>& panels, std::size_t first) {
@@ -77,8 +75,7 @@ Eigen::MatrixXd solve_strengths(const PanelBody& body, const Eigen::MatrixXd& wa
     // The integral equation is of the second kind, so the matrix is well conditioned: the iteration
     // needs no preconditioner and far fewer products than an elimination.
     Eigen::BiCGSTAB<Eigen::MatrixXd, Eigen::IdentityPreconditioner> solver(matrix);
-    // Far below the error of the panels themselves, about 1 %.
-    solver.setTolerance(1e-10);
+    solver.setTolerance(kSolverTolerance);
     solver.setMaxIterations(kMostIterations);
     Eigen::MatrixXd out(wanted.rows(), wanted.cols());
     for (Eigen::Index k = 0; k < wanted.cols(); ++k) {

@@ -8,11 +8,6 @@ namespace ice {
 
 namespace {
 
-// A point source 6 radii away differs from the triangle by less than 1 % of its own velocity, which
-// is itself small there. Fewer radii [-] are faster and less exact; more cost the logarithms and
-// the angle for panels that hardly count.
-constexpr double kFarRadii = 6.0;
-
 std::array<Vec3, 3> points_at(const SourcePanel& p, double apex) {
     // the weight apex on one corner, the rest on both others alike
     const double rest = 0.5 * (1.0 - apex);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/base/error.hpp"
 
@@ -26,6 +27,15 @@ constexpr double kPanelsAlong = 15.0;
 // Triangles smaller than this share [-] of the largest panels allowed add nothing to the flow, but
 // their normals are rounding. Larger would leave holes.
 constexpr double kSliver = 1e-9;
+
+// How far the surface of a fine mesh may shift where it is simplified, over its extent [-]: 1 m on
+// a ship of 100 m, less than a panel. Larger bends the hull's form; with less a fine mesh keeps too
+// many triangles for the bound on panels.
+constexpr float kSimplified = 0.01f;
+
+// Step by which the panels' size grows until their number is within the bound [-]. A larger one
+// leaves more of the bound unused, a smaller one tries more sizes.
+constexpr double kCoarser = 1.2;
 
 // Part of the triangles where sign * p[axis] <= 0.
 std::vector<Triangle> cut(const std::vector<Triangle>& from, int axis, double sign, double same) {
@@ -92,7 +102,7 @@ std::vector<Triangle> simplified(const std::vector<Triangle>& from, std::size_t 
     }
     const std::size_t size =
         meshopt_simplify(kept.data(), index.data(), corners, points.data(), count, stride, 3 * most,
-                         0.01f, meshopt_SimplifyLockBorder);
+                         kSimplified, meshopt_SimplifyLockBorder);
     std::vector<Triangle> out;
     for (std::size_t k = 0; k + 2 < size; k += 3)
         out.push_back({vertex[kept[k]], vertex[kept[k + 1]], vertex[kept[k + 2]]});
@@ -159,7 +169,7 @@ void measure(const std::vector<Triangle>& triangles, bool symmetric, WettedHull&
 
 WettedHull make_wetted_hull(const TriangleMesh& mesh, double water, const PanelSize& size) {
     WettedHull out;
-    double low = 1e300, high = -1e300;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Vec3& v : mesh.vertices) {
         low = std::min(low, v.x());
         high = std::max(high, v.x());
@@ -197,7 +207,8 @@ WettedHull make_wetted_hull(const TriangleMesh& mesh, double water, const PanelS
     } else {
         out.longest_edge = (out.high.x() - out.low.x()) / kPanelsAlong;
         // The finest panels that the bound on their number allows.
-        while ((panels = split(wet, out.longest_edge, size.most)).empty()) out.longest_edge *= 1.2;
+        while ((panels = split(wet, out.longest_edge, size.most)).empty())
+            out.longest_edge *= kCoarser;
     }
     out.body.panels = panels_of(panels, out.longest_edge);
     return out;

@@ -45,7 +45,7 @@ struct ExponentialMap {
         const Lanes one = All(1.0);
         const Vectors half = Scale(All(0.5), angle);
         const Lanes x2 = Dot(half, half);
-        beyond = hn::Or(beyond, hn::Gt(x2, All(0.25)));
+        beyond = hn::Or(beyond, hn::Gt(x2, All(kRotationSeries.kLargest)));
         Lanes sinc = one, cosine = one;
         const auto add_term = [&](std::size_t k) HWY_ATTR {
             sinc = hn::Sub(one, hn::Mul(hn::Mul(x2, All(kRotationSeries.of_sinc[k])), sinc));

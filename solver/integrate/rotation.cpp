@@ -20,7 +20,7 @@ Eigen::Quaterniond exponential_map(const Vec3& angle) {
     int squarings = 0;
     // Large angles are halved until the series converges fast, and the result is squared as often:
     // exp(a) = exp(a / 2^k)^(2^k).
-    while (ordered_dot(half, half) > 0.25) {
+    while (ordered_dot(half, half) > RotationSeries::kLargest) {
         half *= 0.5;
         ++squarings;
     }

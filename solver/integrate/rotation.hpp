@@ -16,6 +16,9 @@ namespace ice {
 struct RotationSeries {
     static constexpr std::size_t kTerms = 7, kFewTerms = 4;
     static constexpr double kSmall = 1e-3;
+    /// Beyond this square of half the angle [rad2], an angle of 1 rad, angles are halved first.
+    /// Smaller squares more results, which adds their rounding; larger needs more terms.
+    static constexpr double kLargest = 0.25;
     std::array<double, kTerms + 1> of_sinc{}, of_cosine{};
 };
 inline constexpr RotationSeries kRotationSeries = [] {

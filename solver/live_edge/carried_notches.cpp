@@ -11,11 +11,11 @@ namespace {
 // face beside it differ by 20 and more. With a smaller one, whole spheres of the upper face keep
 // ice in a notch below them; with a larger one, a face that is cut a little askew is crushed a
 // patch radius beyond the notch.
-constexpr double kSameFace = 0.99;
+constexpr double kNotchFace = 0.99;
 
 // Rounding of places in the ice [m]. With 0, which of two lines through one place counts, and
 // whether a face at the bottom of a notch is whole, depend on the last bit.
-constexpr double kRounding = 1e-9;
+constexpr double kNotchRounding = 1e-9;
 
 }  // namespace
 
@@ -40,12 +40,12 @@ Vec3 CarriedNotches::move_of(std::span<const Line> lines, const Vec3& at,
         // The place on the line nearest to the new sphere; the rest of the line is its notch. A
         // sphere that stays where one was has that one's depth, though other lines pass there.
         const double length2 = line.move.squaredNorm();
-        if (length2 == 0.0 && line.normal.dot(normal) < kSameFace) continue;
+        if (length2 == 0.0 && line.normal.dot(normal) < kNotchFace) continue;
         const double along =
             length2 > 0.0 ? std::clamp((at - line.from).dot(line.move) / length2, 0.0, 1.0) : 0.0;
         const double distance = (line.from + along * line.move - at).norm();
-        if (distance > nearest - kRounding &&
-            (distance > std::min(nearest + kRounding, reach_) || along >= gone))
+        if (distance > nearest - kNotchRounding &&
+            (distance > std::min(nearest + kNotchRounding, reach_) || along >= gone))
             continue;
         nearest = distance;
         gone = along;
@@ -78,7 +78,7 @@ void CarriedNotches::give(Scene& scene, std::int32_t body) const {
     const std::vector<Line> lines = lines_near({Vec3(box.min() - reach), Vec3(box.max() + reach)});
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
         const Vec3 move = move_of(lines, place(k), b.rotation[i] * shape.normal[k]);
-        if (move.norm() > kRounding)
+        if (move.norm() > kNotchRounding)
             scene.crushed.carry_notch(body, static_cast<std::int32_t>(k), shape.center.size(),
                                       b.rotation[i].transpose() * move);
     }

@@ -8,6 +8,11 @@ namespace ice {
 
 namespace {
 
+// Loads this near to a window's middle [radii] may have lost a part of their sum: its loads are
+// within one radius of the middle, and within one more of them; a thousandth is for rounding. A
+// larger value only sums more of them again, a smaller one keeps sums of loads that are gone.
+constexpr double kSumsAround = 2.001;
+
 double down_near(const std::vector<EdgeLoad>& loads, const Vec2& at, double radius) {
     double sum = 0.0;
     for (const EdgeLoad& load : loads)
@@ -67,7 +72,7 @@ std::vector<EdgeWindow> edge_windows(std::vector<EdgeLoad> loads, double radius)
         down.resize(left);
         // farther away no load near by was taken
         for (std::size_t k = 0; k < left; ++k)
-            if (is_within(loads[k], 2.001 * radius))
+            if (is_within(loads[k], kSumsAround * radius))
                 down[k] = down_near(loads, loads[k].at, radius);
     }
     return out;

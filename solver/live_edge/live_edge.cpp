@@ -25,6 +25,10 @@ using Box = Eigen::AlignedBox2d;
 // polygon still has.
 constexpr double kCrushed = 0.125;
 
+// There are tiles this far aside of the hull [radii of a crack at rest]. Larger lays more of them
+// and takes more slots; smaller lets cracks from the hull's sides reach ice without tiles.
+constexpr double kReachAside = 3.0;
+
 // The opening angle of the ice inside a crack [rad]: of the sector with its area, at most that of a
 // straight edge (docs/method.md, section 5).
 double angle_of(double area, double radius) {
@@ -98,7 +102,7 @@ Box LiveEdge::reach(const Scene& scene) const {
     const Eigen::AlignedBox3d& hull = scene.shapes[0].box;
     const Vec3 half = b.rotation[kShip].cwiseAbs() * (0.5 * hull.sizes());
     const Vec2 middle = ship_in_ice(scene) + (b.rotation[kShip] * hull.center()).head<2>();
-    const double aside = 3.0 * radius_;
+    const double aside = kReachAside * radius_;
     return {Vec2(middle.x() - half.x() - astern_, middle.y() - half.y() - aside),
             Vec2(middle.x() + half.x() + ahead_, middle.y() + half.y() + aside)};
 }

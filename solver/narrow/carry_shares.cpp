@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
 #include "solver/narrow/contact_polygon.hpp"
 #include "solver/narrow/gap_rule.hpp"
@@ -57,14 +56,13 @@ Contact* edge_over(const PairView& view, std::span<Contact> contacts, std::int32
 
 }  // namespace
 
-void carry_shares(const PairView& view, std::span<Contact> contacts) {
+void carry_shares(const PairView& view, std::vector<double>& carried, std::span<Contact> contacts) {
     const ConvexPiece &a = view.shape_a.convex, &b = view.shape_b.convex;
     if (view.pair.a != static_cast<std::int32_t>(kShip) || a.empty() || b.empty()) return;
     // `enough` is 0: of solids that overlap every axis is measured, of solids apart one that
     // separates them will do.
     const RelativePose pose{view.rotation_ab, view.translation_ab};
     const Vec3 axis = axis_normal(a, b, pose, find_axes(a, b, pose, 0.0));
-    thread_local std::vector<double> carried;  // by contact: of its part of the section [m2]
     carried.assign(contacts.size(), 0.0);
     for (Contact& c : contacts) {
         if (!incident_is_b(c)) continue;

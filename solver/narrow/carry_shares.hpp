@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "solver/narrow/contact.hpp"
 #include "solver/narrow/pair_view.hpp"
@@ -28,6 +29,7 @@ namespace ice {
 ///
 /// @param contacts  of the pair's spheres, in their order; of other pairs than the ship's, or where
 /// one is not convex, they stay as they are
-void carry_shares(const PairView& view, std::span<Contact> contacts);
+/// @param carried   work memory: by contact, of its part of the section [m2]
+void carry_shares(const PairView& view, std::vector<double>& carried, std::span<Contact> contacts);
 
 }  // namespace ice

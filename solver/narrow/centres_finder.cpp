@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/narrow/make_centre_contacts.hpp"
 #include "solver/narrow/separation.hpp"
 
 namespace ice {
@@ -209,7 +208,7 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         const Found& found = found_[t.found];
         make_centre_contacts(PairView(scene, t.pair),
                              std::span(found.batch->candidates).subspan(found.first, found.count),
-                             out.data() + t.contact);
+                             batches_.own().contacts, out.data() + t.contact);
     });
 }
 

@@ -7,6 +7,7 @@
 
 #include "common/base/parallel.hpp"
 #include "solver/narrow/contact.hpp"
+#include "solver/narrow/make_centre_contacts.hpp"
 #include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/sphere_lists.hpp"
 #include "solver/narrow/touching_spheres.hpp"
@@ -43,6 +44,7 @@ private:
         PairSearch search;
         std::vector<Near> near;
         TouchingSpheres touching;
+        CentreContactsWork contacts;
     };
     // Results of a pair: a part of one thread's results.
     struct Found {

@@ -13,14 +13,9 @@ namespace ice {
 
 namespace {
 
-// A corner of the incident face as it is clipped, in the reference's axes; `edge` names the edge
-// from it to the next one: the incident face's k-th, or kSidePlanes + k along the reference's k-th.
-struct Clipped {
-    Vec3 at;
-    std::uint32_t edge;
-};
-// Room for a face's side planes in a corner's id [-]: at least as many as a piece has planes. A
-// smaller number would give two corners one id.
+// ClippedCorner::edge is k for the incident face's k-th edge, kSidePlanes + k along the reference's
+// k-th side plane. Room for a face's side planes in a corner's id [-]: at least as many as a piece
+// has planes. A smaller number would give two corners one id.
 constexpr std::uint32_t kSidePlanes = 64;
 static_assert(ConvexPiece::kMost <= kSidePlanes);
 
@@ -52,12 +47,11 @@ Vec3 between(const Vec3& p, double height_p, const Vec3& q, double height_q) {
     return (height_p * q - height_q * p) / (height_p - height_q);
 }
 
-// Keeps the part of a polygon within the side plane, which is `slack` [m] farther out.
-void clip(const SidePlane& side, double slack, std::uint32_t number, std::vector<Clipped>& polygon,
-          std::vector<Clipped>& rest) {
-    thread_local std::vector<double> height;  // over the side plane [m]; keeps its memory
+// Keeps the part of work.polygon within the side plane, which is `slack` [m] farther out.
+void clip(const SidePlane& side, double slack, std::uint32_t number, ClippingWork& work) {
+    auto& [face, polygon, rest, height] = work;
     height.clear();
-    for (const Clipped& corner : polygon)
+    for (const ClippedCorner& corner : polygon)
         height.push_back(ordered_dot(side.outward, corner.at) - (side.offset + slack));
     if (std::all_of(height.begin(), height.end(), [](double h) { return h <= 0.0; })) return;
     rest.clear();
@@ -83,8 +77,13 @@ double slack_of_gap(double gap) { return PolygonTolerances::kBesidePlane + std::
 class ClippedFace {
 public:
     // @param slack  the side planes are this much farther out [m]
-    ClippedFace(const Meeting& m, double slack)
-        : m_(m), slack_(slack), n_(m.reference.normals[m.face]) {
+    // @param work   referred to, not copied
+    ClippedFace(const Meeting& m, double slack, ClippingWork& work)
+        : m_(m),
+          slack_(slack),
+          n_(m.reference.normals[m.face]),
+          face_(work.face),
+          polygon_(work.polygon) {
         plane_ = incident_plane(m, n_);
         face_.clear();
         for (const std::int32_t corner : m.incident.loops[plane_]) {
@@ -98,7 +97,7 @@ public:
             polygon_.push_back({at, static_cast<std::uint32_t>(polygon_.size())});
         const std::vector<SidePlane>& sides = m.reference.side_planes[m.face];
         for (std::size_t k = 0; k < sides.size() && !polygon_.empty(); ++k)
-            clip(sides[k], slack, kSidePlanes + static_cast<std::uint32_t>(k), polygon_, rest_);
+            clip(sides[k], slack, kSidePlanes + static_cast<std::uint32_t>(k), work);
     }
 
     // Calls visit(place, id) for each corner, places in the reference's axes.
@@ -145,17 +144,16 @@ private:
     double slack_;
     Vec3 n_;
     std::size_t plane_;
-    // keep their memory
-    inline static thread_local std::vector<Vec3> face_;
-    inline static thread_local std::vector<Clipped> polygon_, rest_;
+    std::vector<Vec3>& face_;
+    std::vector<ClippedCorner>& polygon_;
 };
 
 // Corners between the reference's face and the clipped incident one, in the reference's axes.
-void meet_faces(const Meeting& m, double gap, double most, std::uint32_t kind,
+void meet_faces(const Meeting& m, double gap, double most, std::uint32_t kind, ClippingWork& work,
                 ContactPolygon& out) {
     const Vec3 n = m.reference.normals[m.face];
     const std::uint32_t face_id = kind << 30 | static_cast<std::uint32_t>(m.face) << 14;
-    ClippedFace(m, slack_of_gap(gap)).for_each([&](const Vec3& at, std::uint32_t id) {
+    ClippedFace(m, slack_of_gap(gap), work).for_each([&](const Vec3& at, std::uint32_t id) {
         // half of the gap back from the incident corner: midway between the surfaces
         const double height = ordered_dot(n, at) - m.reference.offsets[m.face];
         if (height <= most) out.corners.push_back({at - 0.5 * height * n, height, face_id | id});
@@ -220,7 +218,8 @@ Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose&
 }
 
 void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
-                          const SeparatingAxes& axes, double most, ContactPolygon& out) {
+                          const SeparatingAxes& axes, double most, ClippingWork& work,
+                          ContactPolygon& out) {
     out.corners.clear();
     out.normal = axis_normal(a, b, pose, axes);
     const AxisKind kind = widest_kind(axes);
@@ -230,13 +229,14 @@ void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const Rela
     }
     if (kind == AxisKind::face_a) {
         const auto plane = static_cast<std::size_t>(axes.plane_a);
-        meet_faces({a, b, pose, plane}, axes.face_a, most, 0u, out);
+        meet_faces({a, b, pose, plane}, axes.face_a, most, 0u, work, out);
         return;
     }
     // b's face is the reference: the same in b's axes, and back again
     const RelativePose back{pose.rotation.transpose(),
                             -ordered_transposed(pose.rotation, pose.translation)};
-    meet_faces({b, a, back, static_cast<std::size_t>(axes.plane_b)}, axes.face_b, most, 1u, out);
+    meet_faces({b, a, back, static_cast<std::size_t>(axes.plane_b)}, axes.face_b, most, 1u, work,
+               out);
     for (PolygonCorner& corner : out.corners)
         corner.point = ordered_product(pose.rotation, corner.point) + pose.translation;
 }

@@ -38,6 +38,20 @@ struct ContactPolygon {
     std::vector<PolygonCorner> corners;
 };
 
+/// A corner of the incident face as it is clipped, in the reference's axes [m]; `edge` names the
+/// edge from it to the next one: of the incident face or along a side plane.
+struct ClippedCorner {
+    Vec3 at;
+    std::uint32_t edge;
+};
+
+/// Work memory of make_contact_polygon, which keeps its capacity between pairs.
+struct ClippingWork {
+    std::vector<Vec3> face;                    ///< the incident face before it is clipped
+    std::vector<ClippedCorner> polygon, rest;  ///< what is left of it, before and after a cut
+    std::vector<double> height;                ///< of the polygon over a side plane [m]
+};
+
 /// The corners of the polygon in which two convex pieces meet, as far as their gap is at most
 /// `most` [m]; keeps `out`'s memory.
 ///
@@ -49,7 +63,8 @@ struct ContactPolygon {
 /// exceeds `most`.
 /// @param axes  find_axes() of these pieces and this pose, all kinds
 void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
-                          const SeparatingAxes& axes, double most, ContactPolygon& out);
+                          const SeparatingAxes& axes, double most, ClippingWork& work,
+                          ContactPolygon& out);
 
 /// The axis with the widest gap, unit, from a to b, a's axes; flush ones by PolygonTolerances, a's
 /// face before b's before two edges.

@@ -21,7 +21,7 @@ constexpr double kDeepShare = 0.1;
 // cos 60 degrees [-]: a seat whose direction out of the solid differs more from the deepest one's
 // leads to another face. Larger drops seats of curved faces; without it seats near a floe's rim,
 // nearer to its upper face than to its side, pushed the other floe down.
-constexpr double kSameDirection = 0.5;
+constexpr double kSameExit = 0.5;
 
 // One body's seats, seen from the other's solid.
 struct Side {
@@ -172,8 +172,7 @@ void keep_one_direction(std::vector<DeepSeat>& seats) {
     const auto deepest = std::min_element(
         seats.begin(), seats.end(), [](const auto& l, const auto& r) { return l.gap < r.gap; });
     const Vec3 direction = deepest->normal;
-    std::erase_if(seats,
-                  [&](const DeepSeat& s) { return s.normal.dot(direction) < kSameDirection; });
+    std::erase_if(seats, [&](const DeepSeat& s) { return s.normal.dot(direction) < kSameExit; });
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // More than any two directions differ by [rad], pi: every normal is possible, nothing is known. Any
 // number above pi does the same.
-constexpr double kMostTurn = 4.0;
+constexpr double kAnyTurn = 4.0;
 
 }  // namespace
 
@@ -63,7 +63,7 @@ void FeaturePairBound::add_edge_axis(int edge_a, int edge_b) {
     const double sine = across.norm();
     if (sine <= kParallel - skin_.angle) return;
     // nearly parallel edges: their cross product may take any direction within the skin
-    const double turn = sine <= 2.0 * skin_.angle ? kMostTurn : skin_.angle / (sine - skin_.angle);
+    const double turn = sine <= 2.0 * skin_.angle ? kAnyTurn : skin_.angle / (sine - skin_.angle);
     // both apexes one patch radius from the crossing: the sum of two vectors at the edges' angle is
     // their largest distance
     const double cosine = std::abs(ea.dot(eb));
@@ -105,7 +105,7 @@ double FeaturePairBound::least_across(const Vec3& d, const Vec3& between) {
         if (n.dot(d) <= -skin_.distance - turn * apart) continue;
         const double gap = n.dot(between);
         // nearly parallel edges have no contact where their apexes are far apart along them
-        if (turn == kMostTurn && std::abs(edge.dot(between)) > 2.0 * far_) continue;
+        if (turn == kAnyTurn && std::abs(edge.dot(between)) > 2.0 * far_) continue;
         // Apexes that are farther apart across the axis than two patch radii allow, motion and
         // rotation included, cannot meet where these edges cross.
         const double beside = skew * far_ + 2.0 * turn * length;

@@ -34,31 +34,31 @@ void search_contacts(const PairView& view, double margin, FoundBatch::Pair& pair
     pair.search.for_each_near(view, range.margin, range.reach, [&](std::int32_t i, std::int32_t j) {
         pair.spheres.push_back({i, j});
     });
-    group_by_types(view, pair.spheres);
+    group_by_types(view, pair.rows, pair.spheres);
     measure_spheres(view, range, pair.spheres, pair.candidates);
     check_depths(view, pair.candidates);
-    reduce_manifold(view, margin, pair.candidates);
+    reduce_manifold(view, margin, pair.reduction, pair.candidates);
 }
 
 // The same for spheres that are known to be near.
 void measure_known(const PairView& view, double margin, std::span<const SpherePair> near,
-                   std::vector<Candidate>& out) {
-    measure_spheres(view, SphereRange(view, margin), near, out);
-    check_depths(view, out);
-    reduce_manifold(view, margin, out);
+                   FoundBatch::Pair& pair) {
+    measure_spheres(view, SphereRange(view, margin), near, pair.candidates);
+    check_depths(view, pair.candidates);
+    reduce_manifold(view, margin, pair.reduction, pair.candidates);
 }
 
 // The spheres that may be candidates while the pair moves within `skin`, and the least gap that
 // they may have, less that motion; appends them.
-double find_near(const PairView& view, double margin, const Skin& skin, PairSearch& search,
+double find_near(const PairView& view, double margin, const Skin& skin, FoundBatch::Pair& pair,
                  std::vector<SpherePair>& out) {
     const std::size_t first = out.size();
     const SphereRange range(view, margin + skin.distance);
-    search.for_each_near(view, range.margin, range.reach + skin.distance,
-                         [&](std::int32_t i, std::int32_t j) {
-                             out.push_back({i, j});
-                         });
-    return bound_spheres(view, range.reach, skin, first, out);
+    pair.search.for_each_near(view, range.margin, range.reach + skin.distance,
+                              [&](std::int32_t i, std::int32_t j) {
+                                  out.push_back({i, j});
+                              });
+    return bound_spheres(view, range.reach, skin, first, pair.rows, out);
 }
 
 // Spheres of deep bodies have passed each other: their solids tell which contacts are lost. Those
@@ -67,7 +67,7 @@ void find_lost(const PairView& view, double apart, double most, FoundBatch::Pair
     pair.polygon.corners.clear();
     pair.seats.clear();
     if (is_deep(view, apart))
-        find_lost_polygon(view, pair.candidates, most, pair.polygon);
+        find_lost_polygon(view, pair.candidates, most, pair.clipping, pair.polygon);
     else if (has_deep_seats(view, apart))
         find_deep_seats(view, pair.candidates, pair.seats);
 }
@@ -89,7 +89,7 @@ void ContactFinder::begin_batches() {
 void ContactFinder::meet(const PairView& view, const SeparatingAxes& axes, double most,
                          Found& found, FoundBatch& batch) {
     if (axes.widest() > most) return;
-    find_polygon(view, axes, most, batch.pair.polygon);
+    find_polygon(view, axes, most, batch.pair.clipping, batch.pair.polygon);
     keep_polygon(found, batch);
 }
 
@@ -188,7 +188,7 @@ void ContactFinder::find_listed(const Scene& scene, BodyPair pair, std::size_t k
         // the skin is used up: a new list, with a skin that lasts for some steps
         const Skin skin = skin_of(scene, pair, within.step);
         found.spheres.first = batch.spheres.size();
-        const double least = find_near(view, within.margin, skin, batch.pair.search, batch.spheres);
+        const double least = find_near(view, within.margin, skin, batch.pair, batch.spheres);
         found.spheres.count = batch.spheres.size() - found.spheres.first;
         near = found.spheres.of(batch.spheres);
         cache_.renew(k, view, motion, skin, std::min(least - within.margin, skin.distance));
@@ -199,13 +199,14 @@ void ContactFinder::find_listed(const Scene& scene, BodyPair pair, std::size_t k
     if (state == PairCache::State::stale)
         search_contacts(view, within.most, batch.pair);
     else
-        measure_known(view, within.most, near, batch.pair.candidates);
+        measure_known(view, within.most, near, batch.pair);
     keep_candidates(found, batch);
     // As find_lost, where the cache cannot rule it out: for seats it also keeps how far the bodies
     // may move before one can be deep.
     if (!cache_.may_be_deep(k)) return;
     if (is_convex_pair(view)) {
-        find_lost_polygon(view, batch.pair.candidates, within.most, batch.pair.polygon);
+        find_lost_polygon(view, batch.pair.candidates, within.most, batch.pair.clipping,
+                          batch.pair.polygon);
         return keep_polygon(found, batch);
     }
     cache_.set_seat_clearance(k, view,
@@ -240,7 +241,8 @@ void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs,
                             found.seats.of(found.batch->seats), first + found.candidates.count);
         if (found.candidates.count > 0)
             make_contacts(PairView(scene, pairs[pairs_to_measure_[n]]),
-                          found.candidates.of(found.batch->candidates), first);
+                          found.candidates.of(found.batch->candidates),
+                          batches_.own().pair.contacts, first);
     });
 }
 
@@ -258,7 +260,8 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
     };
     if (meets_in_polygon(scene, pair, how)) {
         const SeparatingAxes axes = axes_of(view, margin);
-        if (axes.widest() <= margin) find_polygon(view, axes, margin, found.polygon);
+        if (axes.widest() <= margin)
+            find_polygon(view, axes, margin, found.clipping, found.polygon);
         return append_polygon();
     }
     const double apart = separation(view);
@@ -279,14 +282,16 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
         }
     if (!centres) {
         check_depths(view, candidates);
-        reduce_manifold(view, margin, candidates);
+        reduce_manifold(view, margin, found.reduction, candidates);
     }
     out.resize(out.size() + candidates.size());
     Contact* first = out.data() + (out.size() - candidates.size());
-    centres ? make_centre_contacts(view, candidates, first)
-            : make_contacts(view, candidates, first);
     // Under "centres" bodies are their spheres: no solid can be deeper than these tell.
-    if (centres) return;
+    if (centres) {
+        CentreContactsWork work;
+        return make_centre_contacts(view, candidates, work, first);
+    }
+    make_contacts(view, candidates, found.contacts, first);
     find_lost(view, apart, margin, found);
     append_polygon();
     out.resize(out.size() + found.seats.size());

@@ -7,7 +7,10 @@
 
 #include "solver/narrow/contact_polygon.hpp"
 #include "solver/narrow/deep_seats.hpp"
+#include "solver/narrow/make_contacts.hpp"
+#include "solver/narrow/measure_spheres.hpp"
 #include "solver/narrow/pair_cache.hpp"
+#include "solver/narrow/reduce_manifold.hpp"
 #include "solver/narrow/search_pair.hpp"
 
 namespace ice {
@@ -44,6 +47,12 @@ struct FoundBatch {
         std::vector<Candidate> candidates;
         std::vector<DeepSeat> seats;
         ContactPolygon polygon;
+
+        // work memory of the functions that find and make these
+        std::vector<TypesRow> rows;
+        ReductionWork reduction;
+        ClippingWork clipping;
+        ContactsWork contacts;
     } pair;
 
     /// Drops the results and keeps the memory.

@@ -2,10 +2,6 @@
 #include "solver/narrow/make_centre_contacts.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <vector>
-
-#include "solver/narrow/contact_order.hpp"
 
 namespace ice {
 
@@ -35,14 +31,13 @@ void count_contacts(std::span<const Candidate> all, std::int32_t Candidate::*sid
 // Every pair of spheres is a contact, and shares of the surface are split. The point is midway
 // between the surfaces, the gap small against the radii.
 void make_centre_contacts(const PairView& view, std::span<const Candidate> candidates,
-                          Contact* out) {
+                          CentreContactsWork& work, Contact* out) {
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
-    thread_local std::vector<std::int32_t> shared_a, shared_b;  // keep their memory
-    count_contacts(candidates, &Candidate::j, view.shape_b.center.size(), shared_b);
+    count_contacts(candidates, &Candidate::j, view.shape_b.center.size(), work.shared_b);
     // shares are the ice's: the hull's many spheres are not counted
-    if (!ship) count_contacts(candidates, &Candidate::i, view.shape_a.center.size(), shared_a);
-    const std::int32_t *contacts_of_a = shared_a.data(), *contacts_of_b = shared_b.data();
-    thread_local std::vector<ContactPlace> places;
+    if (!ship) count_contacts(candidates, &Candidate::i, view.shape_a.center.size(), work.shared_a);
+    const std::int32_t *contacts_of_a = work.shared_a.data(), *contacts_of_b = work.shared_b.data();
+    std::vector<ContactPlace>& places = work.places;
     places.clear();
     for (const Candidate& c : candidates)
         places.push_back(place_of(view, c, std::uint64_t(c.i) << 32 | std::uint64_t(c.j)));

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "solver/narrow/carry_shares.hpp"
-#include "solver/narrow/contact_order.hpp"
 
 namespace ice {
 
@@ -100,12 +98,12 @@ Patch patch_of_a(const PairView& view, std::int32_t i, const Vec3& n, double gap
     return patch;
 }
 
-void make_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out) {
+void make_contacts(const PairView& view, std::span<const Candidate> candidates, ContactsWork& work,
+                   Contact* out) {
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
-    thread_local std::vector<ContactPlace> places;  // keeps its memory
-    find_places(view, candidates, places);
+    find_places(view, candidates, work.places);
     Contact* contact = out;
-    for (const ContactPlace& place : places) {
+    for (const ContactPlace& place : work.places) {
         const Candidate& c = *place.candidate;
         fill_contact(view, place, meeting_point(view, c), *contact);
         // Of ship and floe the ice is crushed; of two floes the one whose sphere is incident.
@@ -113,8 +111,8 @@ void make_contacts(const PairView& view, std::span<const Candidate> candidates, 
         contact->patch = incident_patch(view, c);
         ++contact;
     }
-    order_equals(places, out);
-    carry_shares(view, {out, candidates.size()});
+    order_equals(work.places, out);
+    carry_shares(view, work.carried, {out, candidates.size()});
 }
 
 }  // namespace ice

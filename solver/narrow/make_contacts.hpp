@@ -2,16 +2,25 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "solver/narrow/contact.hpp"
+#include "solver/narrow/contact_order.hpp"
 #include "solver/narrow/pair_view.hpp"
 
 namespace ice {
 
+/// Work memory of make_contacts, which keeps its capacity between pairs.
+struct ContactsWork {
+    std::vector<ContactPlace> places;
+    std::vector<double> carried;  ///< of carry_shares
+};
+
 /// Makes contacts of a pair's candidates under the rule "surface", in the order that ContactFinder
 /// gives them: points, patches, keys and hull regions. @param out  room for as many
 /// @pre the candidates of an incident sphere are adjacent (reduce_manifold)
-void make_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out);
+void make_contacts(const PairView& view, std::span<const Candidate> candidates, ContactsWork& work,
+                   Contact* out);
 
 /// Is b's sphere the incident one? @param c  one of make_contacts(): other keys tell nothing
 inline bool incident_is_b(const Contact& c) { return (c.key >> 32 & 1) != 0; }

@@ -2,7 +2,6 @@
 #include "solver/narrow/measure_spheres.hpp"
 
 #include <algorithm>
-#include <compare>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -110,31 +109,27 @@ bool is_candidate(const PairView& view, std::int32_t i, std::int32_t j, const Ga
            is_within_side_planes(view, i, j, gap);
 }
 
-void group_by_types(const PairView& view, std::span<SpherePair> spheres) {
-    struct Row {
-        std::uint64_t types, spheres;  // b's before a's
-        auto operator<=>(const Row&) const = default;
-    };
-    thread_local std::vector<Row> rows;  // keeps its memory; small rows sort faster than pairs
+void group_by_types(const PairView& view, std::vector<TypesRow>& rows,
+                    std::span<SpherePair> spheres) {
     const auto join = [](std::int32_t high, std::int32_t low) {
         return static_cast<std::uint64_t>(high) << 32 | static_cast<std::uint64_t>(low);
     };
-    // Two integers per row, compared at once: the types decide, the spheres break ties.
+    // the types decide, the spheres break ties
     rows.clear();
     for (const SpherePair& s : spheres)
         rows.push_back(
             {join(view.shape_b.feature_type[s.b], view.shape_a.feature_type[s.a]), join(s.b, s.a)});
     std::sort(rows.begin(), rows.end());
-    std::transform(rows.begin(), rows.end(), spheres.begin(), [](const Row& row) {
+    std::transform(rows.begin(), rows.end(), spheres.begin(), [](const TypesRow& row) {
         return SpherePair{static_cast<std::int32_t>(row.spheres & 0xffffffff),
                           static_cast<std::int32_t>(row.spheres >> 32)};
     });
 }
 
 double bound_spheres(const PairView& view, double reach, const Skin& skin, std::size_t first,
-                     std::vector<SpherePair>& spheres) {
+                     std::vector<TypesRow>& rows, std::vector<SpherePair>& spheres) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    group_by_types(view, std::span(spheres).subspan(first));
+    group_by_types(view, rows, std::span(spheres).subspan(first));
     std::optional<FeaturePairBound> bound;  // of the types met last; refers to both features
     Feature feature_a, feature_b;
     std::int32_t type_a = -1, type_b = -1;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -49,16 +51,26 @@ inline bool prefers_reference_a(const PairView& view) {
 /// larger gap may show that the incident sphere is outside.
 bool is_candidate(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap);
 
+/// A pair of spheres as group_by_types sorts it: two integers, compared at once, sort faster than
+/// pairs.
+struct TypesRow {
+    std::uint64_t types, spheres;  ///< b's before a's
+    auto operator<=>(const TypesRow&) const = default;
+};
+
 /// Sorts pairs of spheres by their feature types, so that each FeaturePair is made once.
-void group_by_types(const PairView& view, std::span<SpherePair> spheres);
+/// @param rows  work memory
+void group_by_types(const PairView& view, std::vector<TypesRow>& rows,
+                    std::span<SpherePair> spheres);
 
 /// Keeps of the spheres from `first` on those that may be candidates while the pair moves within
 /// `skin`, sorted by feature types; returns the least gap that they may have, less that
 /// motion [m]: infinite where none is kept.
 /// @param reach    SphereRange's [m]
+/// @param rows     work memory
 /// @param spheres  those before `first` stay as they are
 double bound_spheres(const PairView& view, double reach, const Skin& skin, std::size_t first,
-                     std::vector<SpherePair>& spheres);
+                     std::vector<TypesRow>& rows, std::vector<SpherePair>& spheres);
 
 /// The candidates among these spheres, in their order: the ones of measure_gap_surface, as
 /// FeaturePair gives them. A FeaturePair serves adjacent pairs of spheres with the same types.

@@ -20,12 +20,17 @@ namespace {
 // in the pre-sawn channel; eight steps and 0.9 radii won nothing. Contacts are the same.
 constexpr double kLookAhead = 5.0;                          // steps [-]
 constexpr double kLeastAngle = 0.0075, kMostAngle = 0.015;  // [rad]
-constexpr double kLeastShare = 0.3, kMostShare = 0.6;       // of the ice's radius
+constexpr double kLeastSkin = 0.3, kMostSkin = 0.6;         // of the ice's radius
+
+// |R - R0| is sqrt(8) sin(angle / 2): at least this share of sqrt(2) angle [-] below half a radian.
+// Smaller renews lists earlier; nearer to 1 the angle is no bound, and contacts could be missed.
+constexpr double kChordShare = 0.99;
 
 // Relative motion and rotation [rad] of a pair since b had the pose (rotation, translation) in a's
-// axes. |R - R0| is sqrt(8) sin(angle / 2), below half a radian at least 0.99 sqrt(2) angle.
+// axes.
 Skin relative_motion(const PairView& view, const Mat3& rotation, const Vec3& translation) {
-    const double turned = (view.rotation_ab - rotation).norm() / (0.99 * std::numbers::sqrt2);
+    const double turned =
+        (view.rotation_ab - rotation).norm() / (kChordShare * std::numbers::sqrt2);
     return {(view.translation_ab - translation).norm() + MotionBounds::lever(view.shape_b) * turned,
             turned};
 }
@@ -155,9 +160,8 @@ Skin skin_of(const Scene& scene, BodyPair pair, double dt) {
     const double radius = scene.shapes[shape].largest_radius, ahead = kLookAhead * dt;
     // a pair that turns uses up the skin by its angle, one that slides by its distance
     const Vec3 turning = b.angular_velocity[pair.b] - b.angular_velocity[pair.a];
-    return {
-        std::clamp(ahead * closing_speed(scene, pair), kLeastShare * radius, kMostShare * radius),
-        std::clamp(ahead * turning.norm(), kLeastAngle, kMostAngle)};
+    return {std::clamp(ahead * closing_speed(scene, pair), kLeastSkin * radius, kMostSkin * radius),
+            std::clamp(ahead * turning.norm(), kLeastAngle, kMostAngle)};
 }
 
 }  // namespace ice

@@ -17,6 +17,10 @@ constexpr double kTouch = 1e-4;
 // it. More adds force on sides that slide along; 0 lets a body cut along its own side unresisted.
 constexpr double kLeastFacing = 0.05;
 
+// Cosines of a normal cone's half angle below this [-] count as it: the point of touch would be
+// anywhere. Larger shortens the wings of needles, smaller makes them as long as rounding has it.
+constexpr double kLeastSpreadCos = 1e-3;
+
 // Projected area of a wing of unit area as far as a face at `depth` below the foot cuts it; the
 // wing goes down from the foot at the angle with this sine and cosine, up where the sine is < 0.
 double cut_wing(double sine, double cosine, double wing, double depth) {
@@ -33,7 +37,7 @@ double cut_wing(double sine, double cosine, double wing, double depth) {
 double wing_length(double radius, double share, double spread_cos, double spread_sin) {
     // touch is r tan s, from the foot to the point of touch; the wing w solves 4 w (w - touch)
     // = share (patch.hpp)
-    const double touch = radius * spread_sin / std::max(spread_cos, 1e-3);
+    const double touch = radius * spread_sin / std::max(spread_cos, kLeastSpreadCos);
     return 0.5 * (touch + std::sqrt(touch * touch + share));
 }
 

@@ -31,16 +31,9 @@ bool same_incident(const Candidate& l, const Candidate& r) {
     return l.gap.reference_is_a == r.gap.reference_is_a && l.incident() == r.incident();
 }
 
-// A candidate's place in the order: by incident sphere, then by distance, ties by the mirror rank.
-// Candidates are large: rows are sorted in their place.
-struct Row {
-    std::int64_t incident;
-    double reference_offset_sq;
-    const Candidate* candidate;
-};
-
 void sort_by_incident(const PairView& view, const std::vector<Candidate>& candidates,
-                      std::vector<Row>& out) {
+                      std::vector<ReductionWork::Row>& out) {
+    using Row = ReductionWork::Row;
     out.clear();
     for (const Candidate& c : candidates)
         out.push_back({2 * std::int64_t{c.incident()} + (c.gap.reference_is_a ? 1 : 0),
@@ -59,18 +52,18 @@ void sort_by_incident(const PairView& view, const std::vector<Candidate>& candid
 
 }  // namespace
 
-void reduce_manifold(const PairView& view, double margin, std::vector<Candidate>& candidates) {
+void reduce_manifold(const PairView& view, double margin, ReductionWork& work,
+                     std::vector<Candidate>& candidates) {
     // Gaps beyond the margin serve only to rule out others: alone they leave no contact.
     if (std::none_of(candidates.begin(), candidates.end(),
                      [&](const Candidate& c) { return c.gap.gap <= margin; }))
         return candidates.clear();
     // Nearest first, so that a face keeps its nearest reference sphere without a second pass.
-    thread_local std::vector<Row> rows;  // keep their memory
-    thread_local std::vector<Candidate> kept;
-    sort_by_incident(view, candidates, rows);
+    sort_by_incident(view, candidates, work.rows);
+    std::vector<Candidate>& kept = work.kept;
     kept.clear();
     std::size_t group = 0;  // [group, kept.size()) are the kept ones of the present incident sphere
-    for (const Row& row : rows) {
+    for (const ReductionWork::Row& row : work.rows) {
         const Candidate& now = *row.candidate;
         if (kept.size() > group && !same_incident(kept[group], now)) group = kept.size();
         const auto first = kept.begin() + static_cast<std::ptrdiff_t>(group), last = kept.end();

@@ -33,6 +33,11 @@ struct RelativePose {
 struct SeparatingAxes {
     static constexpr double kNone = -std::numeric_limits<double>::infinity();
 
+    /// Edges whose sine squared is less [-] have no axis: their cross product has no digits left. A
+    /// plane's normal beside it differs by as little (1e-6), so that nothing is lost. Smaller lets
+    /// rounding choose an axis; larger leaves out axes that no plane is near.
+    static constexpr double kParallelSquared = 1e-12;
+
     double face_a = kNone, face_b = kNone, edges = kNone;
     std::int32_t plane_a = -1, plane_b = -1;  ///< the first of those with the gap; -1: not measured
     std::int32_t edge_a = -1, edge_b = -1;    ///< the first pair, by a's edge, then b's; -1: none
@@ -43,7 +48,7 @@ struct SeparatingAxes {
 
 /// Measures the axes. Stops early after a's or b's planes where one of them has a gap of more than
 /// `enough` [m]: then the pieces are that far apart, and the later kinds are left out.
-/// Edges whose sine is less than 1e-6 have no axis; a plane's beside it differs by as little.
+/// Edges that are parallel by kParallelSquared have no axis.
 /// Cost: planes times corners, then pairs of edges. @pre neither piece is empty
 SeparatingAxes find_axes(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                          double enough);

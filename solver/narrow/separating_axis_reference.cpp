@@ -12,10 +12,6 @@ namespace ice {
 
 namespace {
 
-// Edges whose sine squared is less [-] have no axis: their cross product has no digits left. A
-// plane's normal beside it differs by as little (1e-6), so that nothing is lost.
-constexpr double kParallelSquared = 1e-12;
-
 // All rows in the same order, as the kernel has it.
 Vec3 turned(const Mat3& m, const Vec3& v) {
     return {ordered_dot(Vec3(m.row(0)), v), ordered_dot(Vec3(m.row(1)), v),
@@ -107,7 +103,7 @@ SeparatingAxes find_axes(const ConvexPiece& a, const ConvexPiece& b, const Relat
             if (!arcs_cross(a.edge_left[ka], a.edge_right[ka], ea, b1, b2, eb)) continue;
             const Vec3 across = ea.cross(eb);
             const double square = ordered_dot(across, across);
-            if (square <= kParallelSquared) continue;
+            if (square <= SeparatingAxes::kParallelSquared) continue;
             // all points of two crossing lines have the same distance along their common normal
             const double apart =
                 ordered_dot(across, placed(pose, b.edge_middle[kb]) - a.edge_middle[ka]);

@@ -107,7 +107,7 @@ HWY_INLINE Crossing CrossEdges(const ConvexPiece& a, Vectors eb, Vectors b1, Vec
                                Vectors pb) {
     const Tag d;
     const Lanes zero = hn::Zero(d), none = hn::Set(d, SeparatingAxes::kNone);
-    const Lanes parallel = hn::Set(d, 1e-12);  // kParallelSquared
+    const Lanes parallel = hn::Set(d, SeparatingAxes::kParallelSquared);
     Crossing best{none, hn::Set(d, -1.0)};
     for (std::size_t k = 0; k < a.edges.size(); ++k) {
         const std::size_t block = k / kBlock, at = k % kBlock;

@@ -32,11 +32,11 @@ bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule
     return convex(pair.a) && convex(pair.b);
 }
 
-void find_polygon(const PairView& view, const SeparatingAxes& axes, double most,
+void find_polygon(const PairView& view, const SeparatingAxes& axes, double most, ClippingWork& work,
                   ContactPolygon& polygon) {
     ICE_ASSERT(is_convex_pair(view));
     make_contact_polygon(view.shape_a.convex, view.shape_b.convex,
-                         {view.rotation_ab, view.translation_ab}, axes, most, polygon);
+                         {view.rotation_ab, view.translation_ab}, axes, most, work, polygon);
     reduce_polygon(kManifoldCorners, polygon);
     // By place with y and -y alike: mirror images are solved in the same order.
     std::sort(polygon.corners.begin(), polygon.corners.end(),
@@ -83,7 +83,7 @@ bool is_deep(const PairView& view, double apart) {
 }
 
 void find_lost_polygon(const PairView& view, std::span<const Candidate> found, double most,
-                       ContactPolygon& polygon) {
+                       ClippingWork& work, ContactPolygon& polygon) {
     ICE_ASSERT(is_convex_pair(view));
     polygon.corners.clear();
     // 0 as `enough`: the solids overlap, and of these all axes are measured
@@ -95,7 +95,8 @@ void find_lost_polygon(const PairView& view, std::span<const Candidate> found, d
     for (const Candidate& c : found) least = std::min(least, c.gap.gap);
     const double crushed =
         view.scene.crushed.deepest_of(view.pair.a) + view.scene.crushed.deepest_of(view.pair.b);
-    if (axes.widest() + crushed + lost_slack(view) < least) find_polygon(view, axes, most, polygon);
+    if (axes.widest() + crushed + lost_slack(view) < least)
+        find_polygon(view, axes, most, work, polygon);
 }
 
 }  // namespace ice

@@ -19,7 +19,7 @@ bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule
 /// Finds their contacts within `most` [m], at most four; no corners where every gap is wider.
 /// @pre both convex @param axes  of the two solids, all kinds
 /// @param polygon  its old content is dropped, its memory kept
-void find_polygon(const PairView& view, const SeparatingAxes& axes, double most,
+void find_polygon(const PairView& view, const SeparatingAxes& axes, double most, ClippingWork& work,
                   ContactPolygon& polygon);
 
 /// Makes contacts of a polygon's corners, in their order. Between floes that cannot be crushed they
@@ -52,6 +52,6 @@ bool is_deep(const PairView& view, double apart);
 /// @pre is_deep() @param found  the contacts of the spheres
 /// @param polygon  its old content is dropped, its memory kept
 void find_lost_polygon(const PairView& view, std::span<const Candidate> found, double most,
-                       ContactPolygon& polygon);
+                       ClippingWork& work, ContactPolygon& polygon);
 
 }  // namespace ice

@@ -24,7 +24,7 @@ constexpr double kSameSide = 0.5, kNeighbours = 2.0;
 
 // Least area of a sphere's share, of a panel: spheres without area have a place, too, and no mean
 // is divided by 0.
-constexpr double kLeastShare = 1e-9;
+constexpr double kLeastPanelShare = 1e-9;
 
 // region; axis that the normal points along most; its sign; cell along the other two axes
 using Key = std::tuple<std::int32_t, int, bool, long, long>;
@@ -122,7 +122,7 @@ HullPanels divide_hull(const Shape& hull, double size, double waterline) {
         // A line load is force per length: horizontal length for a panel of the bottom (axis 2),
         // height for one of a side or an end. `across` is the factor of that projection.
         const double across = std::get<1>(key) == 2 ? std::abs(n.z()) : std::hypot(n.x(), n.y());
-        const double area = std::max(hull.area[k], kLeastShare * whole);
+        const double area = std::max(hull.area[k], kLeastPanelShare * whole);
         sums[place->second].region = region;
         sums[place->second].add({area, across * area, area * hull.center[k], area * n, region});
         row_of.push_back(place->second);

@@ -13,13 +13,17 @@ namespace {
 
 // Places on the water, and cells along the hull, before some are left out [-]: as many as a picture
 // can show. More hide each other, fewer leave parts of the flow out.
-constexpr double kOnSurface = 1200.0, kAlong = 25.0;
+constexpr double kSurfacePlaces = 1200.0, kAlong = 25.0;
 // Least speed of an arrow, in ship speeds [-]: shorter ones are not seen. A larger value leaves out
 // slow flow, a smaller one draws dots.
 constexpr double kLeast = 0.01;
 // Pieces of the wetted surface, from which cells are drawn, at most [-]: a hull that takes more has
 // no arrows along it. More take longer. All of these matter to pictures alone.
 constexpr std::size_t kMostPieces = 20000;
+// How far an arrow along the hull is off its panel, and below the surface at least [cells]: there
+// the table's flow is that around the hull. A larger value draws the flow farther away, a smaller
+// one that between nodes in the hull.
+constexpr double kOffPanelCells = 0.1;
 
 class Sampler {
 public:
@@ -55,7 +59,7 @@ private:
         // squares of equal area, so that the number of arrows does not depend on the hull's
         // size
         const double step =
-            std::sqrt((high_.x() - low_.x()) * (high_[axis] - low_[axis]) / kOnSurface);
+            std::sqrt((high_.x() - low_.x()) * (high_[axis] - low_[axis]) / kSurfacePlaces);
         for (double x = low_.x() + 0.5 * step; x < high_.x(); x += step)
             for (double other = high_[axis] - 0.5 * step; other > low_[axis]; other -= step) {
                 Vec3 at(x, 0.0, 0.0);
@@ -73,10 +77,9 @@ private:
         const auto panels = split_triangles(scene_.shapes[0].mesh, cell, kMostPieces);
         std::set<std::array<long, 3>> taken;
         for (const SourcePanel& panel : panels) {
-            // a little off the panel and below the surface, where the table's flow is that
-            // around the hull
-            const Vec3 at = panel.centre + Vec3(0, 0, height_) + 0.1 * cell * panel.normal;
-            if (at.z() > -0.1 * cell) continue;
+            const Vec3 at =
+                panel.centre + Vec3(0, 0, height_) + kOffPanelCells * cell * panel.normal;
+            if (at.z() > -kOffPanelCells * cell) continue;
             const Vec3 c = (at / cell).array().floor();
             if (taken.insert({std::lround(c.x()), std::lround(c.y()), std::lround(c.z())}).second)
                 add(at);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -33,14 +34,15 @@ std::vector<Segment> cut(const TriangleMesh& mesh, double height) {
 }
 
 double foremost(const std::vector<Segment>& section) {
-    double x = -1e300;
+    double x = -std::numeric_limits<double>::infinity();
     for (const auto& [p, q] : section) x = std::max({x, p.x(), q.x()});
     return x;
 }
 
 // Least and largest x at which the section is at least `half_breadth` off the centre line.
 std::pair<double, double> ends_at(const std::vector<Segment>& section, double half_breadth) {
-    std::pair<double, double> ends{1e300, -1e300};
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    std::pair<double, double> ends{kNone, -kNone};
     const auto add = [&](double x) { ends = {std::min(ends.first, x), std::max(ends.second, x)}; };
     // corners far enough from the centre line, and points between where the breadth is just
     // reached
@@ -59,7 +61,8 @@ std::pair<double, double> ends_at(const std::vector<Segment>& section, double ha
 std::optional<HullForm> measure_hull_form(const TriangleMesh& hull, double waterline) {
     const std::vector<Segment> water = cut(hull, waterline);
     if (water.empty()) return std::nullopt;
-    double x_low = 1e300, y_low = 1e300, y_high = -1e300, z_low = 1e300;
+    double x_low = std::numeric_limits<double>::infinity(), y_low = x_low, y_high = -x_low,
+           z_low = x_low;
     for (const auto& [p, q] : water) {
         x_low = std::min({x_low, p.x(), q.x()});
         y_low = std::min({y_low, p.y(), q.y()});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/time_rounding.hpp"
 #include "solver/record/find_peaks.hpp"
 
 namespace ice {
@@ -39,8 +40,7 @@ PanelLoads::PanelLoads(HullPanels hull, std::vector<std::string> region_names, d
 
 void PanelLoads::add(const std::vector<Contact>& contacts,
                      const std::vector<Constraint>& constraints, double time) {
-    // the tolerance is that of times that are multiples of dt up to rounding [s]
-    if (time < average_from_ - 1e-9) return;
+    if (time < average_from_ - kTimeRounding) return;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
         const double normal = c.total_normal();

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/time_rounding.hpp"
 #include "common/formats/summary_file.hpp"
 #include "solver/contact/solve_contacts.hpp"
 #include "solver/record/long_series.hpp"
@@ -55,9 +56,6 @@ private:
         Vec3 friction = Vec3::Zero();  ///< the part of friction in it
     };
 
-    // Rounding of a time that is a sum of steps [s]: with 0, a step that ends at average_from may
-    // be left out; with a step's length or more, the step before counts, too.
-    static constexpr double kTimeRounding = 1e-9;
     bool is_averaged(double time) const { return time >= options_.average_from - kTimeRounding; }
 
     /// Averaged steps of a doubtful kind.

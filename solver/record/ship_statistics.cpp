@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "common/base/assert.hpp"
+#include "common/base/time_rounding.hpp"
 #include "common/base/units.hpp"
 #include "solver/record/periodogram.hpp"
 #include "solver/record/statistics.hpp"
@@ -50,7 +51,7 @@ void ShipStatistics::add(const FreeShip& ship, const Scene& scene, const Case& p
     // stuck: slower than 0.1 m/s for ten seconds on end
     if (std::abs(speed) >= kSlow) slow_since_ = time;
     stuck_ = stuck_ || time - slow_since_ >= kStuckTime;
-    if (time < p.average_from - 1e-9) return;
+    if (time < p.average_from - kTimeRounding) return;
     // Speed along the heading, not along x: a ship that yaws still goes ahead.
     speed_.add(speed);
     thrust_.add(ship.loads().thrust);

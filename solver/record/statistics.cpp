@@ -15,7 +15,7 @@ namespace {
 
 // Samples that an interval needs [-]: fewer do not show their correlation. More gives short runs no
 // interval at all.
-constexpr std::size_t kFewest = 40;
+constexpr std::size_t kFewestSamples = 40;
 // Samples that are used one by one [-]; longer series are averaged in blocks. More takes longer;
 // fewer hide short correlation.
 constexpr std::size_t kMost = 8192;
@@ -114,7 +114,7 @@ struct BlockedSeries {
 MeanInterval interval_of(const BlockedSeries& series) {
     const double unknown = std::nan("");
     MeanInterval out{series.mean, unknown, unknown, unknown, unknown, std::nullopt};
-    if (series.count < kFewest) return out;
+    if (series.count < kFewestSamples) return out;
     // Long series are averaged to blocks: low frequencies lose nothing, and the cost is bounded.
     // as many samples to a block as bring their number to kMost
     const std::size_t length = (series.blocks.size() + kMost - 1) / kMost;

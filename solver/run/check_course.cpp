@@ -17,7 +17,7 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 // Share of the averaged time without ice ahead that is worth a warning [-]: less changes a mean by
 // less than its interval.
-constexpr double kLeastShare = 0.02;
+constexpr double kOpenShare = 0.02;
 // Cells of the hull's cross section at most [-]. Fewer make distances coarser than a spacing.
 constexpr double kMostCells = 4e6;
 
@@ -211,7 +211,7 @@ void warn_of_meeting(const Case& p, const Course& c, std::vector<Warning>& warni
                          "use a longer field",
                          c.leaves_at, p.average_from),
              true, 1.0});
-    } else if (p.duration - c.leaves_at > kLeastShare * averaged) {
+    } else if (p.duration - c.leaves_at > kOpenShare * averaged) {
         warnings.push_back(
             {fmt::format("the bow leaves the ice at {:.4g} s, and forces are averaged "
                          "up to {:.4g} s: shorten simulation.duration, or use a "

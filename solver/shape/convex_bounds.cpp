@@ -45,12 +45,13 @@ bool list_normals(const TriangleMesh& mesh, std::vector<Vec3>& out) {
 
 // Is no corner before a facet, and no sphere by more than `excess`? Then the space behind all
 // facets is the corners' hull, and a sphere, which is so but for a part of its radius, reaches out
-// of it by that part. Sharp edges between facets only just not in one plane are right to 1e6 kFlat.
+// of it by that part. Sharp edges between facets only just not in one plane are right to 1e6
+// kHeightRounding.
 bool enclose_all(const TriangleMesh& mesh, const std::vector<Vec3>& corners,
                  std::span<const BoundedSphere> spheres, double excess) {
     // Rounding of a corner's height over a facet of its own face [m]. Larger takes meshes for
     // convex that are hollow by as much, smaller only costs time: separation() then proves less.
-    constexpr double kFlat = 1e-13;
+    constexpr double kHeightRounding = 1e-13;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 at = mesh.corner(t, 0);
         const Vec3 across = (mesh.corner(t, 1) - at).cross(mesh.corner(t, 2) - at);
@@ -58,9 +59,10 @@ bool enclose_all(const TriangleMesh& mesh, const std::vector<Vec3>& corners,
         if (length == 0.0) continue;
         const Vec3 n = across / length;
         for (const Vec3& v : corners)
-            if (n.dot(v - at) > kFlat) return false;
+            if (n.dot(v - at) > kHeightRounding) return false;
         for (const BoundedSphere& s : spheres)
-            if (n.dot(s.center - at) + s.radius > excess + kFlat || s.radius < excess) return false;
+            if (n.dot(s.center - at) + s.radius > excess + kHeightRounding || s.radius < excess)
+                return false;
     }
     return true;
 }

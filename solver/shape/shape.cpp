@@ -24,6 +24,16 @@ constexpr double kKnife = -0.94;
 // needles; larger makes edges of blunt corners.
 constexpr double kSamePlane = 0.1;
 
+// Patch radius over the spacing [-]: a little more than the 1 / sqrt(2) by which the places between
+// four spheres of a square lattice are off. Smaller leaves such places to no sphere, and contacts
+// there are lost; larger compares more spheres and gives a place to more of them.
+constexpr double kPatchShare = 0.75;
+
+// A sphere whose nearest neighbour is farther than this many spacings or diameters [-], whichever
+// are longer, is alone and tells no spacing. The search hardly looks farther, so that a larger
+// value changes nothing; a smaller one makes the patches of thin sets too small.
+constexpr double kAlone = 3.0;
+
 // The mesh as the water's kernels read it, eight triangles beside each other.
 FacetBlocks facets_of(const TriangleMesh& mesh) {
     std::vector<Facet> facets;
@@ -134,7 +144,7 @@ void rank_places(Shape& shape) {
 // A square lattice leaves points s / sqrt(2) from every sphere, a hexagonal one s / sqrt(3). On a
 // thin plate the nearest is across the thickness: along the edges they are the nominal apart.
 double measure_patch_radius(const Shape& shape, double nominal_spacing) {
-    const double limit = 3.0 * std::max(nominal_spacing, 2.0 * shape.largest_radius);
+    const double limit = kAlone * std::max(nominal_spacing, 2.0 * shape.largest_radius);
     const SphereGrid grid(shape.center, 2.0 * shape.largest_radius);
     double spacing = 0.0;
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
@@ -145,7 +155,7 @@ double measure_patch_radius(const Shape& shape, double nominal_spacing) {
         });
         if (nearest < limit) spacing = std::max(spacing, nearest);
     }
-    return 0.75 * std::max(spacing, nominal_spacing);
+    return kPatchShare * std::max(spacing, nominal_spacing);
 }
 
 }  // namespace

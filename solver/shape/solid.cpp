@@ -18,7 +18,7 @@ constexpr double kSameNormal = 1.0 - 5e-11;
 
 // Lengths below this share of the mesh's size [-] are rounding of its vertices. Larger takes hulls
 // that are a little hollow for convex; smaller finds no float mesh convex.
-constexpr double kRounding = 1e-6;
+constexpr double kVertexRounding = 1e-6;
 
 struct Plane {
     Vec3 normal;
@@ -167,7 +167,7 @@ VectorBlocks::VectorBlocks(const std::vector<Vec3>& list) : count_(list.size()) 
 }
 
 ConvexPiece make_convex_piece(const TriangleMesh& mesh) {
-    const double flat = kRounding * size_of(mesh.vertices);
+    const double flat = kVertexRounding * size_of(mesh.vertices);
     std::vector<Vec3> points;
     std::vector<Plane> planes;
     if (!list_points(mesh, flat, points) || !list_planes(mesh, points, flat, planes)) return {};

@@ -23,7 +23,7 @@ constexpr double kBalanced = 1e-11;
 constexpr double kStepAngle = 1e-4;
 // Bounds of one of Newton's steps: [rad], and a share of the hull's depth [-]. Larger ones may turn
 // the ship over or lift it out of the water; smaller ones only take more steps.
-constexpr double kMostTurn = 0.1;
+constexpr double kMostTilt = 0.1;
 constexpr double kMostSink = 0.1;
 
 // heave, roll, pitch: the motions in which water restores
@@ -67,7 +67,7 @@ public:
     // turn the hull over, or lift it out of the water, where nothing restores.
     Vec3 limited(Vec3 step) const {
         step[0] = std::clamp(step[0], -kMostSink * size_.z(), kMostSink * size_.z());
-        for (int k = 1; k < 3; ++k) step[k] = std::clamp(step[k], -kMostTurn, kMostTurn);
+        for (int k = 1; k < 3; ++k) step[k] = std::clamp(step[k], -kMostTilt, kMostTilt);
         return step;
     }
 

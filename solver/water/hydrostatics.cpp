@@ -12,9 +12,13 @@ namespace ice {
 
 namespace {
 
+// Beyond every vertex [m], and finite: of a mesh without vertices the mean of both ends is a
+// number.
+constexpr double kBeyondVertices = 1e300;
+
 // z-extent of the turned shape about the body origin
 std::pair<double, double> vertical_extent(const Shape& shape, const Mat3& rotation) {
-    double low = 1e300, high = -1e300;
+    double low = kBeyondVertices, high = -kBeyondVertices;
     for (const Vec3& v : shape.mesh.vertices) {
         const double z = rotation.row(2).dot(v);
         low = std::min(low, z);

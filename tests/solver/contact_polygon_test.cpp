@@ -30,7 +30,8 @@ ConvexPiece box(const Vec3& size) { return make_convex_piece(test::make_box_mesh
 ContactPolygon meet(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                     double most) {
     ContactPolygon out;
-    make_contact_polygon(a, b, pose, find_axes(a, b, pose, kAll), most, out);
+    ClippingWork work;
+    make_contact_polygon(a, b, pose, find_axes(a, b, pose, kAll), most, work, out);
     return out;
 }
 
