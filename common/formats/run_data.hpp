@@ -12,7 +12,7 @@
 
 namespace ice {
 
-/// A body's form, shared by all floes made from one sphere file.
+/// A body's shape, shared by all floes made from one sphere file.
 struct RunShape {
     TriangleMesh mesh;  ///< body axes [m]; floes: about the centre of mass, hull: ship frame
     std::vector<Vec3> centers;  ///< [N] contact spheres, same axes [m]

@@ -63,7 +63,7 @@ Outline inset(const Outline& outline, double distance) {
         out.push_back(outline[k] + distance / fold * (n1 + n2));
     }
     for (std::size_t k = 0; k < outline.size(); ++k)
-        // An edge that has turned round has shrunk to nothing: the inset has no such form.
+        // An edge that has turned round has shrunk to nothing: the inset has no such shape.
         if ((next(out, k) - out[k]).dot(next(outline, k) - outline[k]) <= 0.0) return {};
     return out;
 }

@@ -124,7 +124,7 @@ ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repa
     for (std::size_t k = 0; k < caps.size(); ++k) {
         if (out.caps[k].kind == CapKind::deck) name_deck(mesh, caps[k]);
         if (out.caps[k].kind == CapKind::guess && caps[k].perimeter > 0.0)
-            // 4 area / perimeter is the hydraulic diameter: the width of a hole of any form
+            // 4 area / perimeter is the hydraulic diameter: the width of a hole of any shape
             out.widest = std::max(out.widest, 4.0 * out.caps[k].area / caps[k].perimeter);
     }
     const auto count = [&](CapKind kind) {

@@ -21,9 +21,9 @@ constexpr double kDoubt = 0.005;    // of the volume, in doubt by one cap
 constexpr double kSuspect = 0.005;  // of the surface: largest cap in a file that seems cut off
 constexpr double kContinued = 0.2;  // of the surface: all continued faces together
 constexpr double kLoose = 0.05;     // of the surface: all small caps together
-constexpr double kEnd = 0.0005;     // of the surface: largest cap of guessed form at an end
+constexpr double kEnd = 0.0005;     // of the surface: largest cap of guessed shape at an end
 // Edges round a face or two, or round one vertex, that are missing [-]: such a hole has a known
-// form. A larger value takes open ends of coarse meshes for such holes, a smaller one refuses
+// shape. A larger value takes open ends of coarse meshes for such holes, a smaller one refuses
 // meshes that lack a face at an end.
 constexpr std::size_t kFewEdges = 8;
 
@@ -73,7 +73,7 @@ public:
         box_ = box;
     }
 
-    // A cap of guessed form where the solid ends along its length: how much farther it went, a
+    // A cap of guessed shape where the solid ends along its length: how much farther it went, a
     // whole stem perhaps, nothing tells, however little volume that had.
     bool cuts_an_end(const Cap& cap, const CapVerdict& verdict) const {
         if (verdict.kind != CapKind::small || verdict.area <= kEnd * surface_ ||

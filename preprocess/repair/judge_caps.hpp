@@ -11,7 +11,7 @@ inline constexpr double kMostDoubt = 0.02;
 
 /// Kinds of caps.
 enum class CapKind {
-    small,      ///< whatever its form, the volume does not depend on it
+    small,      ///< whatever its shape, the volume does not depend on it
     continued,  ///< flat, in the plane of a face next to it
     hidden,     ///< inside another part
     deck,       ///< faces up and closes the top of its part from side to side
@@ -36,8 +36,8 @@ struct CapVerdict {
 /// cover it (a superstructure without a bottom, standing in the deck), or as a deck: it faces up,
 /// the walls at its rim stand (they lean inwards by less than 17 degrees, outwards by less than
 /// 37), its edge has no steps, it reaches over 60 % of the length and the breadth of its part, and
-/// nothing of the part stands above it. However small, a cap of guessed form may not make an end of
-/// the solid's length if it is more than 0.05 % of the surface and has more than eight edges: a
+/// nothing of the part stands above it. However small, a cap of guessed shape may not make an end
+/// of the solid's length if it is more than 0.05 % of the surface and has more than eight edges: a
 /// stem may be missing there.
 ///
 /// @param mesh    closed by `caps`, each part facing outwards

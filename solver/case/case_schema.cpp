@@ -197,7 +197,7 @@ std::vector<CaseKey> water_keys() {
          "The dynamic pressure of the flow around the hull acts on the floes, beside its drag.",
          [](Case& c, G&, const Value& v) { c.flow_pressure = integer(v) != 0; }},
         {"flow.added_mass", Kind::choice, D::none, "\"none\"", 0, 0, 0, kAddedMasses,
-         "Added mass of the floes: none, or computed for each form in deep water, in 3D.",
+         "Added mass of the floes: none, or computed for each shape in deep water, in 3D.",
          [](Case& c, G&, const Value& v) { c.floes_move_water = text(v) == "computed"; }},
     };
 }

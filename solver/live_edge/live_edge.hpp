@@ -7,7 +7,7 @@
 
 #include "solver/case/case.hpp"
 #include "solver/contact/constraints.hpp"
-#include "solver/level_ice/crack_form.hpp"
+#include "solver/level_ice/crack_size.hpp"
 #include "solver/level_ice/ice_sheet.hpp"
 #include "solver/live_edge/edge_window.hpp"
 #include "solver/live_edge/gone_pieces.hpp"
@@ -64,9 +64,9 @@ public:
     /// Breaks off the pieces of the last step's cracks, takes away the ice that the hull has
     /// crushed through, lays the edge anew around a ship that has gone on.
     /// @param time  [s]
-    /// @return whether bodies have another form now: those of changed()
+    /// @return whether bodies have another shape now: those of changed()
     bool renew(Scene& scene, const Case& parameters, double time);
-    /// The bodies to which the last renew() gave another form, sorted.
+    /// The bodies to which the last renew() gave another shape, sorted.
     const std::vector<std::int32_t>& changed() const { return changed_; }
 
     /// Sums the loads of the step just done and finds the cracks that they open.

@@ -21,7 +21,7 @@ struct FloeLoad : WaterLoad {
     double water_power = 0.0;  ///< what moving water puts in: drag times its velocity [W]
 };
 
-/// Loads on floes, in their order: (14), (16) or (17), (24), (25), (P1). Floes of one form that
+/// Loads on floes, in their order: (14), (16) or (17), (24), (25), (P1). Floes of one shape that
 /// follow each other cost less. No floes have no loads.
 /// @param floes  numbers of floes that are not held, ascending
 /// @pre what update_derived makes of their poses

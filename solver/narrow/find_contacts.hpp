@@ -59,8 +59,8 @@ public:
     void find(const Scene& scene, const std::vector<BodyPair>& pairs, const MotionBounds& motion,
               ContactRule rule, double dt, double margin, std::vector<Contact>& out);
 
-    /// These bodies have another form now, or another place than MotionBounds knows: all pairs with
-    /// them are searched afresh. @pre sorted
+    /// These bodies have another shape now, or another place than MotionBounds knows: all pairs
+    /// with them are searched afresh. @pre sorted
     void forget(const std::vector<std::int32_t>& bodies);
 
 private:

@@ -8,7 +8,7 @@
 
 #include "common/base/units.hpp"
 #include "common/formulas/formula_band.hpp"
-#include "solver/record/hull_form.hpp"
+#include "solver/record/measure_hull_dimensions.hpp"
 #include "solver/water/hydrostatics.hpp"
 
 namespace ice {
@@ -77,15 +77,15 @@ ShipParticulars measure_ship(const Scene& scene, const Case& parameters, double 
     ShipParticulars ship;
     // in the mesh's axes the water lies at -height
     ship.draught = -height - keel;
-    const auto form = measure_hull_form(hull.mesh, -height);
-    if (!form) return ship;
-    ship.length = form->length;
+    const auto dimensions = measure_hull_dimensions(hull.mesh, -height);
+    if (!dimensions) return ship;
+    ship.length = dimensions->length;
     if (scene.dimension == 2) return ship;
-    ship.breadth = form->breadth;
-    ship.stem_angle_deg = form->stem_angle * kDegreesPerRadian;
-    ship.entrance_angle_deg = form->entrance_angle * kDegreesPerRadian;
-    ship.parallel_length = form->parallel_length;
-    ship.bow_length = form->bow_length;
+    ship.breadth = dimensions->breadth;
+    ship.stem_angle_deg = dimensions->stem_angle * kDegreesPerRadian;
+    ship.entrance_angle_deg = dimensions->entrance_angle * kDegreesPerRadian;
+    ship.parallel_length = dimensions->parallel_length;
+    ship.bow_length = dimensions->bow_length;
     ship.displacement =
         parameters.water_density * measure_submerged(hull, Mat3::Identity(), height).volume;
     return ship;

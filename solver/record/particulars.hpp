@@ -12,10 +12,10 @@ namespace ice {
 
 /// The hull as it lies in calm water: section and sink of its mesh at the ship's height.
 ///
-/// Length, breadth and angles as measure_hull_form(). Displacement: volume below the water, exactly
-/// (measure_submerged), times the water's density. Draught: down to the mesh's lowest point;
-/// negative where the hull hangs above the water. All else is NaN where the hull does not cross the
-/// water; in 2D all but length and draught. The mean speed is speed_mean().
+/// Length, breadth and angles as measure_hull_dimensions(). Displacement: volume below the water,
+/// exactly (measure_submerged), times the water's density. Draught: down to the mesh's lowest
+/// point; negative where the hull hangs above the water. All else is NaN where the hull does not
+/// cross the water; in 2D all but length and draught. The mean speed is speed_mean().
 ///
 /// @param height  of the mesh's origin [m]; as the scene has it where not given
 ShipParticulars measure_ship(const Scene& scene, const Case& parameters);

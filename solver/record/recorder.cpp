@@ -22,7 +22,7 @@ namespace ice {
 
 namespace {
 
-// The constant part of run.h5: with case, program and forms a report needs no other file, and the
+// The constant part of run.h5: with case, program and shapes a report needs no other file, and the
 // run can be made again.
 RunHeader make_header(const Case& parameters, const Scene& scene, const std::string& command) {
     RunHeader header;

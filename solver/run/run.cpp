@@ -55,7 +55,7 @@ void check_finite(const World& w) {
 
 // A step that must balance; the summary keeps the worst of each kind.
 void verified_step(World& w, Summary& summary) {
-    begin_step(w);  // momenta are compared between bodies of one form
+    begin_step(w);  // momenta are compared between bodies of one shape
     const Momenta before = momenta_of(w);
     step(w);
     const Imbalance found = require_balance(before, w);

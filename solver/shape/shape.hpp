@@ -22,7 +22,7 @@
 
 namespace ice {
 
-/// A form in its body axes: floes about the centre of mass, the hull in the ship frame.
+/// A body's shape in its own axes: floes about the centre of mass, the hull in the ship frame.
 struct Shape {
     int dimension = 3;
 

@@ -35,7 +35,7 @@ double contact_margin(const Case& p) {
 }
 
 // The edge of level ice breaks and goes with the ship: the contacts of bodies that have another
-// form now are forgotten. Mass that comes into the scene or leaves it is no work.
+// shape now are forgotten. Mass that comes into the scene or leaves it is no work.
 void renew_edge(World& w) {
     w.edge.drift_until(w.time);
     if (!w.edge.is_due(w.scene)) return;

@@ -58,7 +58,7 @@ struct World {
 };
 
 /// Releases the floes that the last step's loads broke, and renews the edge of level ice, where
-/// bodies change their form. step() begins with it; where it was called before, nothing is left.
+/// bodies change their shape. step() begins with it; where it was called before, nothing is left.
 void begin_step(World& world);
 
 /// Advances the world by parameters.time_step. Afterwards `constraints` hold the step's impulses.

@@ -357,12 +357,12 @@ TEST_CASE("a checkpoint that holds a NaN is refused with the floe's number",
                Catch::Contains("checkpoint.h5: holds a NaN or infinity for floe 2"));
 }
 
-TEST_CASE("a checkpoint is refused when any floe of a group has another form",
+TEST_CASE("a checkpoint is refused when any floe of a group has another shape",
           "[step][checkpoint][errors]") {
     const TempFolder folder;
     Case p = pressed_row(kSoft);
     p.floes[0].pattern = GENERATE(Pattern::file, Pattern::grid);
-    // the last floe's form stays, as that of a field's last floe may
+    // the last floe's shape stays, as that of a field's last floe may
     const auto make = [&](double radius) {
         World w = make_world(p, radius);
         const auto last = add_shape(w, make_box_set(Vec3(0.6, 0.4, 0.2), 0.05, 0.1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/level_ice/crack_form.hpp"
+#include "solver/level_ice/crack_size.hpp"
 
 #include <algorithm>
 #include <cmath>
