@@ -24,9 +24,9 @@ struct ShipParticulars {
     double speed_mean = kUnknown;          ///< over the averaged time [m/s]
     double parallel_length = kUnknown;     ///< of the waterline's full breadth [m]; 3D
     double bow_length = kUnknown;          ///< of the waterline before it [m]; 3D
-    /// Motions and drive of a ship that answers, by their keys in summary.json; else empty.
+    /// Motions and drive of a free ship, by their keys in summary.json; else empty.
     std::vector<std::pair<std::string, double>> motion;
-    std::optional<bool> stuck;  ///< below 0.1 m/s for 10 s on end, of a ship that answers
+    std::optional<bool> stuck;  ///< below 0.1 m/s for 10 s on end, of a free ship
 };
 
 /// Sizes of the floes that may move, and the case's values for all ice.

@@ -55,7 +55,7 @@ struct HistoryRow {
     double kinetic_energy = 0.0;         ///< of the floes [J] (2D: J per metre)
     double breaking_x = 0.0;  ///< force along x of ice held until it bends [N]; not in run.h5
 
-    // of a ship that answers, at the end of the row; forces are means
+    // of a free ship, at the end of the row; forces are means
     Eigen::Quaterniond ship_orientation = Eigen::Quaterniond::Identity();  ///< ship to world
     Vec3 ship_angles = Vec3::Zero();    ///< roll, pitch, yaw [rad]
     Vec3 ship_velocity = Vec3::Zero();  ///< of its centre of gravity [m/s]

@@ -185,7 +185,7 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
     create(ship_position, "ship_position", {3}, "m", {"/xyz"});
     if (header.ship_answers) {
         create(ship_orientation, "ship_orientation", {4}, "1", {"/wxyz"});
-        // only of a ship that answers; another stays upright on its course
+        // only of a free ship; another stays upright on its course
         file.write_attribute("/frames/ship_orientation", "order", "w,x,y,z ship to world");
     }
     create(position, "position", {n, 3}, "m", {"/frames/body", "/xyz"});

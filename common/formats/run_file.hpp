@@ -11,7 +11,7 @@
 ///     /frames/frame_time [F] s         /frames/body [B]  (ids, from 1)
 ///     /frames/position [F,B,3]         /frames/orientation [F,B,4] w x y z, body to world
 ///     /frames/velocity, angular_velocity, contact_force [F,B,3]   /frames/state [F,B]
-///     of a ship that answers: /ship/velocity, angles, tow_force [S,3], thrust [S]
+///     of a free ship: /ship/velocity, angles, tow_force [S,3], thrust [S]
 ///                             /frames/ship_orientation [F,4] w x y z, ship to world
 ///     /frames/ship_position [F,3]      /frames/body_shape, body_group, mass [B], inertia [B,3]
 ///     /contacts/contact_time [C] s     hull contacts, forces as means since the frame before

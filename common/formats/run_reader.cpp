@@ -187,7 +187,7 @@ private:
         read_ship_motion(run);
     }
 
-    // of a ship that answers; others keep their course
+    // of a free ship; others keep their course
     void read_ship_motion(RunData& run) const {
         run.header.ship_answers = file().has("/ship/velocity");
         if (!run.header.ship_answers) return;
@@ -265,7 +265,7 @@ private:
         const auto spin = points("/frames/angular_velocity", {frames, n});
         const auto force = points("/frames/contact_force", {frames, n});
         const auto state = read_as<std::uint8_t>("/frames/state", {frames, n});
-        std::vector<double> attitude;  // of a ship that answers
+        std::vector<double> attitude;  // of a free ship
         if (file().has("/frames/ship_orientation"))
             attitude = read_as<double>("/frames/ship_orientation", {frames, 4});
         run.frames.resize(frames);

@@ -137,8 +137,8 @@ private:
                 by_thickness[rounded(row.thickness)].push_back(row);
                 continue;
             }
-            // a run of a free ship attains its speed, runs on a fixed course give a resistance to
-            // be fitted
+            // a run of a free ship attains its speed, runs on a prescribed course give a resistance
+            // to be fitted
             const bool stuck = speed->mean < kStuckSpeed;
             free.points.push_back(
                 {row.thickness,
@@ -183,7 +183,8 @@ private:
 
     void add_course(const std::string& label, const Thrust& thrust,
                     const std::map<double, ResistanceFit>& fits) {
-        HvCurve curve{Source::fixed_course, label.empty() ? "computed" : label, thrust.name, {}};
+        HvCurve curve{
+            Source::prescribed_course, label.empty() ? "computed" : label, thrust.name, {}};
         // One point for each thickness: the map has them in rising order.
         for (const auto& [thickness, fit] : fits)
             curve.points.push_back({thickness, attained_speed(fit, thrust)});

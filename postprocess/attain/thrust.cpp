@@ -139,7 +139,7 @@ double Thrust::at(double speed) const {
         return table.back().second;
     }
     if (open_water_speed == 0.0) return bollard_pull;
-    // (S2) of docs/method.md, section 14
+    // (S2) of docs/method.md, section 13
     const double share = speed / open_water_speed;
     return bollard_pull * (1.0 - share / 3.0 - 2.0 / 3.0 * share * share);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Keys of a ship that answers the ice: [ship], [propulsion], [tow], [mooring].
+/// Keys of a free ship: [ship], [propulsion], [tow], [mooring].
 #pragma once
 
 #include <algorithm>

@@ -64,7 +64,7 @@ void push_ship(Bodies& bodies, const Constraint& c, const Vec3& j) {
 }
 
 double ship_response(const ShipResponse& ship, const Vec3& arm, const Vec3& direction) {
-    // k(d) of section 14, d . (M + A)^-1 d + (r x d) . (I + A')^-1 (r x d)
+    // k(d) of section 13, d . (M + A)^-1 d + (r x d) . (I + A')^-1 (r x d)
     const Vec3 turn = arm.cross(direction);
     return direction.dot(ship.inverse_mass * direction) + turn.dot(ship.inverse_inertia * turn);
 }

@@ -41,7 +41,7 @@ public:
     /// deep pair thus opens at five radii R a second; with longer ones a tenth of a radius in each
     /// step, which is slower.
     ///
-    /// Contacts at their bound are left alone: that ice is gone. A ship that answers moves by its
+    /// Contacts at their bound are left alone: that ice is gone. A free ship moves by its
     /// share, of its mass and the water's that moves along; one on a prescribed course does not
     /// move.
     /// @param dt   time step [s]
@@ -64,7 +64,7 @@ private:
         double target, done;    // move along the normal [m]; impulse so far [kg m]
         Vec3 turn_a, turn_b;    // by a unit push: I^-1 (r x n) [rad/(kg m)]
         double effective_mass;  // 1 / k(n) [kg]
-        Vec3 ship_shift;        // by a unit push, of a ship that answers [1/kg]
+        Vec3 ship_shift;        // by a unit push, of a free ship [1/kg]
     };
     // @param target  move along the normal [m]
     static Push push_of(const Bodies& bodies, const Constraint& c, std::size_t row, double target);

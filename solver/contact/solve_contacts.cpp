@@ -51,7 +51,7 @@ void drive_through(Bodies& bodies, Constraint& c) {
     const double speed = sliding.norm();
     c.impact_normal = c.max_impulse;
     if (speed > 0.0) c.impact_tangent = -(c.friction * c.max_impulse / speed) * sliding;
-    // A ship that answers in some direction is slowed down by the friction, not turned round.
+    // Friction slows a ship that is free along the sliding; it does not reverse its motion.
     if (c.a != static_cast<std::int32_t>(kShip) || !bodies.ship.free || speed == 0.0) return;
     const double inverse_effective_mass = ship_response(bodies.ship, c.arm_a, sliding / speed);
     if (inverse_effective_mass * c.friction * c.max_impulse > speed)
@@ -79,7 +79,7 @@ SolveReport ContactSolver::iterate(const ContactLaw& law) {
     gradient_.begin(contacts_, !law.is_rigid());
     while (true) {
         ++report.iterations;
-        // A free ship is solved as copies, one per pair (section 14), which become one ship
+        // A free ship is solved as copies, one per pair (section 13), which become one ship
         // again after each sweep; one on a prescribed course is not touched.
         contacts_.part_ship();
         report.residual =

@@ -59,7 +59,7 @@ private:
 /// forces.csv where floes are held until they bend.
 extern const char* const kForceColumns;
 extern const char* const kBreakingColumn;
-extern const char* const kShipColumns;  ///< behind them, of a ship that answers
+extern const char* const kShipColumns;  ///< behind them, of a free ship
 extern const char* const kFloeColumns;
 /// @param breaking  with kBreakingColumn @param ship  with kShipColumns
 std::vector<double> csv_row(const HistoryRow& row, bool breaking, bool ship);

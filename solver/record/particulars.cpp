@@ -140,7 +140,7 @@ void fill_particulars(const Scene& scene, const Case& parameters, double until, 
         went ? measure_ship(scene, parameters, went->height) : measure_ship(scene, parameters);
     summary.ship.speed_mean = went ? went->speed_mean : speed_mean(parameters, until);
     summary.ice = measure_ice(scene, parameters);
-    // a prescribed course first; a ship that answers has its own travel
+    // a prescribed course first; a free ship has its own travel
     summary.travel = measure_travel(parameters, summary.ship, until);
     if (!scene.water.grid.empty())
         summary.flow = {parameters.flow == FlowModel::file ? "file" : "double-body",

@@ -32,7 +32,7 @@ double speed_mean(const Case& parameters, double until);
 /// Travel from the start to `until` [s], in metres and lengths of the waterline.
 TravelParticulars measure_travel(const Case& parameters, const ShipParticulars& ship, double until);
 
-/// How a ship that answers went, and how it lies in calm water.
+/// How a free ship travelled, and how it lies in calm water.
 struct FreeTravel {
     double height;              ///< of the mesh's origin at equilibrium [m]
     double speed_mean;          ///< over the averaged time [m/s]
@@ -40,7 +40,7 @@ struct FreeTravel {
 };
 
 /// Fills ship, ice, travel, formulas and lindqvist_submersion of a run that ended at `until` [s].
-/// @param went  of a ship that answers; others go as prescribed
+/// @param went  of a free ship; others keep the prescribed course
 void fill_particulars(const Scene& scene, const Case& parameters, double until, Summary& summary,
                       const std::optional<FreeTravel>& went = std::nullopt);
 

@@ -74,7 +74,7 @@ public:
 
     void add(const StepView& view);
 
-    /// How a ship that answers went; nothing for a prescribed course.
+    /// How a free ship travelled; nothing for a prescribed course.
     std::optional<FreeTravel> travel(const StepView& view) const;
 
     /// Completes and renames the files, and fills the summary's recorded part.

@@ -70,7 +70,7 @@ void ShipStatistics::add(const FreeShip& ship, const Scene& scene, const Case& p
 }
 
 FreeTravel ShipStatistics::travel(const FreeShip& ship, const Scene& scene, const Case& p) const {
-    ICE_ASSERT(ship.answers());
+    ICE_ASSERT(ship.is_free());
     const Bodies& b = scene.bodies;
     const ShipRig& rig = ship.rig();
     const Vec3 centre = b.position[kShip] + b.rotation[kShip] * rig.body.centre_of_gravity;
@@ -81,7 +81,7 @@ FreeTravel ShipStatistics::travel(const FreeShip& ship, const Scene& scene, cons
 
 void ShipStatistics::fill(const FreeShip& ship, const Scene& scene, const Case& p,
                           Summary& summary) const {
-    ICE_ASSERT(ship.answers());
+    ICE_ASSERT(ship.is_free());
     const ShipRig& rig = ship.rig();
     std::map<std::string, double> out;
     out["mass_kg"] = rig.body.mass;

@@ -26,7 +26,7 @@ struct Imbalance {
     double angular = 0.0;   ///< of the worst floe: change of L against the moments
     double together = 0.0;  ///< momentum that all floes gained beyond the loads, against what the
                             ///< forces reported for the ship and the impulses on held floes say
-    double ship = 0.0;      ///< momentum that a ship that answers gained beyond its own loads,
+    double ship = 0.0;      ///< momentum that a free ship gained beyond its own loads,
                             ///< against those forces; 0 for a prescribed course
     std::int32_t linear_floe = 0, angular_floe = 0;  ///< the worst ones; 0 where there is none
 
@@ -48,7 +48,7 @@ Momenta momenta_of(const World& world);
 ///
 ///     sum (P' - P - dt F) + dt f_ship + sum J_h = 0,   likewise for the moments.
 ///
-/// A ship that answers has in its free motions, with the matrix of (S1) at the step's start and F_s
+/// A free ship has in its free motions, with the matrix of (S1) at the step's start and F_s
 /// of thrust, lines and water,
 ///
 ///     (M + A) (v' - v) = dt F_s + dt f_ship,

@@ -169,7 +169,7 @@ bool any_floe_moves(const Bodies& b) {
 // Whether neither the ship nor any ice or water has a speed.
 bool nothing_moves(const World& w) {
     const Case& p = w.parameters;
-    return !w.ship.answers() && p.current == std::array{0.0, 0.0} &&
+    return !w.ship.is_free() && p.current == std::array{0.0, 0.0} &&
            std::all_of(p.speed_table.begin(), p.speed_table.end(),
                        [](const auto& row) { return row.second == 0.0; });
 }

@@ -37,9 +37,9 @@ std::string ship_line(const World& w, const ShipParticulars& ship) {
     return out;
 }
 
-// A ship that answers: its free motions and its equilibrium.
+// A free ship: its free motions and its equilibrium.
 std::string motion_line(const World& w) {
-    if (!w.ship.answers()) return {};
+    if (!w.ship.is_free()) return {};
     constexpr const char* kNames[] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
     const ShipRig& rig = w.ship.rig();
     std::vector<std::string> free;

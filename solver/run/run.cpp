@@ -34,7 +34,7 @@ StepView view_of(const World& w) {
             w.ledger,
             w.time,
             w.impacts.converged && w.rest.converged,
-            w.ship.answers() ? &w.ship : nullptr,
+            w.ship.is_free() ? &w.ship : nullptr,
             w.edge.lives() ? &w.edge : nullptr};
 }
 
@@ -66,7 +66,7 @@ void verified_step(World& w, Summary& summary) {
     keep("floe_momentum", found.linear);
     keep("floe_angular_momentum", found.angular);
     keep("ship_and_floes", found.together);
-    if (w.ship.answers()) keep("ship", found.ship);
+    if (w.ship.is_free()) keep("ship", found.ship);
 }
 
 // The summary's part on the program and its run. Wall times differ between equal runs; all other

@@ -15,7 +15,7 @@ namespace {
 // tests/flow/added_mass_test.cpp by less than 2 %. The time grows with the square.
 constexpr double kPanels = 400.0;
 
-// Ice that is held for good answers no impulse: added mass would have no effect.
+// No impulse moves ice that is held for good: added mass would have no effect.
 bool stays(const Case& p, const Bodies& b, std::size_t i) {
     return p.floes[static_cast<std::size_t>(b.group[i])].hold == Hold::always;
 }

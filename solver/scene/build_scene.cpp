@@ -168,7 +168,7 @@ Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity) {
     scene.dimension = hull.dimension;
     scene.ship_velocity = velocity;
     scene.shapes.push_back(std::move(hull));
-    // body 0, with zeros for everything that a prescribed course does not answer
+    // body 0, with zeros for everything that has no effect on a prescribed course
     Bodies& b = scene.bodies;
     b.shape.push_back(0);
     b.group.push_back(-1);

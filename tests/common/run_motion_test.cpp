@@ -7,8 +7,7 @@
 using namespace ice;
 using namespace ice::test;
 
-TEST_CASE("the motion of a ship that answers comes back, row by row and frame by frame",
-          "[formats]") {
+TEST_CASE("the motion of a free ship comes back, row by row and frame by frame", "[formats]") {
     const TempFolder folder;
     RunData run = make_run({.frames = 3});
     run.header.ship_answers = true;
