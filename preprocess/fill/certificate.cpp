@@ -22,7 +22,7 @@ namespace {
 constexpr double kThinGap = 2.5;
 // Distance [spacings] by which the nearest sphere may lie aside of a place: the layer's covering
 // radius. A larger value counts fewer places as thin or without a sphere, a smaller one counts
-// ordinary holes of the layer as such places.
+// places between the spheres of an ordinary layer as such.
 constexpr double kAside = 0.65;
 // Places whose cover is measured by a climb: the worst samples. More may find a worse place and
 // take as much longer.

@@ -16,13 +16,13 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 // All in spacings [-]. In a layer of perfect hexagons the neighbours of a seat lie at 1,
-// the next ones at sqrt(3) = 1.73, and the middles of its holes, corners of the Voronoi cells, at 1
-// / sqrt(3) = 0.577 from the nearest seats. The certificate's covering radius is the largest such
+// the next ones at sqrt(3) = 1.73, and the corners of its Voronoi cells at 1 / sqrt(3) = 0.577
+// from the nearest seats. The certificate's covering radius is the largest such
 // distance in the layer: it can be no less than 0.577, and kGap and kCovered lie just above. Lower
-// ones need seats where the separations below leave no room; higher ones leave larger holes.
+// ones need seats where the separations below leave no room; higher ones leave larger gaps.
 //
 // The separations are below 1, because fronts that meet do not fit: a lower one puts more seats
-// into their seams, a higher one leaves holes there for the next stage.
+// into their seams, a higher one leaves gaps there for the next stage.
 constexpr double kHalo = 2.0;             // how far beyond the tile seats matter: over kCellReach
 constexpr double kBeyond = 1.2;           // how far beyond it gaps are closed
 constexpr double kStretch = 1.02;         // of a front's hexagons

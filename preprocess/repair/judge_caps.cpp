@@ -22,8 +22,8 @@ constexpr double kSuspect = 0.005;  // of the surface: largest cap in a file tha
 constexpr double kContinued = 0.2;  // of the surface: all continued faces together
 constexpr double kLoose = 0.05;     // of the surface: all small caps together
 constexpr double kEnd = 0.0005;     // of the surface: largest cap of guessed shape at an end
-// Edges round a face or two, or round one vertex, that are missing [-]: such a hole has a known
-// shape. A larger value takes open ends of coarse meshes for such holes, a smaller one refuses
+// Edges round a face or two, or round one vertex, that are missing [-]: such an opening has a known
+// shape. A larger value takes open ends of coarse meshes for such openings, a smaller one refuses
 // meshes that lack a face at an end.
 constexpr std::size_t kFewEdges = 8;
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "preprocess/repair/cap_holes.hpp"
+#include "preprocess/repair/cap_openings.hpp"
 
 namespace ice {
 
 /// Volume that may depend on how openings are closed, over the whole [-]: all caps together. Larger
-/// accepts solids of uncertain mass, smaller refuses hulls with many small holes.
+/// accepts solids of uncertain mass, smaller refuses hulls with many small openings.
 inline constexpr double kMostDoubt = 0.02;
 
 /// Kinds of caps.

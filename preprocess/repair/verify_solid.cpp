@@ -88,8 +88,8 @@ WindingComparison compare_windings(const TriangleMesh& open, const TriangleMesh&
         const Vec3 unit(radical_inverse(k + 1, 2), radical_inverse(k + 1, 3),
                         radical_inverse(k + 1, 5));
         const Vec3 p = box.min() + box.sizes().cwiseProduct(unit);
-        // near 0 and 1 the winding number of an open surface is clear; between, the place is near a
-        // hole
+        // near 0 and 1 the winding number of an open surface is clear; between, the place is near
+        // an opening
         const double w = std::abs(first.at(p));
         found[k] = static_cast<std::uint8_t>((first.contains(p) ? in_first : 0) |
                                              (second.contains(p) ? in_second : 0) |

@@ -24,7 +24,7 @@ constexpr double kSame = 1e-6;
 constexpr double kPanelsAlong = 15.0;
 
 // Triangles smaller than this share [-] of the largest panels allowed add nothing to the flow, but
-// their normals are rounding. Larger would leave holes.
+// their normals are rounding. Larger would leave openings.
 constexpr double kSliver = 1e-9;
 
 // Part of the triangles where sign * p[axis] <= 0.
@@ -209,7 +209,7 @@ TriangleMesh without_regions(const TriangleMesh& mesh, std::span<const std::stri
         if (std::find(known.begin(), known.end(), name) == known.end())
             throw bad_input(fmt::format("region \"{}\"", name), "the hull has none of that name",
                             fmt::format("its regions are {}", fmt::join(known, ", ")));
-    // the hole that is left has no panels: water passes through the plate's place
+    // the opening that is left has no panels: water passes through the plate's place
     TriangleMesh out = mesh;
     out.triangles.clear();
     out.region.clear();
