@@ -55,8 +55,8 @@ public:
         first_.push_back(creases.size());
     }
 
-    // Is one of them in this corner and knows its faces?
-    bool know(const Seat& corner) const {
+    // Whether one of them lies in this corner and has its faces.
+    bool contain(const Seat& corner) const {
         return grid_.any_within(
             corner.center, kSameCorner * set_.spacing, [&](std::int32_t sphere) {
                 // creases are in order of their spheres: those of one are a range
@@ -157,7 +157,7 @@ CornerCount count_corners(const SurfaceTree& tree, const SphereSet& set, bool ha
             // Of half a solid each corner off the plane of symmetry counts twice.
             const bool has_image = half && corner.center.y() > kSameCorner * set.spacing;
             out.all += has_image ? 2 : 1;
-            if (creased.know(corner)) continue;
+            if (creased.contain(corner)) continue;
             const Vec3& c = corner.center;
             out.blind.push_back(c);
             if (has_image) out.blind.emplace_back(c.x(), -c.y(), c.z());

@@ -35,8 +35,8 @@ struct FillOptions {
 
 /// Fills a closed solid with contact spheres of one radius: surface spheres first, then interior.
 ///
-/// Conforming: a layer tangent to the surface from inside (fill/shell.hpp), then every point of a
-/// hexagonal close packing (in 2D a square lattice) whose sphere lies inside; the two overlap.
+/// Conforming: a layer tangent to the surface from inside (fill/make_layer.hpp), then every point
+/// of a hexagonal close packing (in 2D a square lattice) whose sphere lies inside; the two overlap.
 /// Lattice: a cubic one alone (fill/lattice.hpp). Shares, normals and the certificate are filled
 /// in; names and provenance are the caller's.
 ///

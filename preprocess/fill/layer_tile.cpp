@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/fill/shell_tile.hpp"
+#include "preprocess/fill/layer_tile.hpp"
 
 #include <algorithm>
 #include <array>
@@ -56,7 +56,7 @@ Eigen::AlignedBox3d around(const Eigen::AlignedBox3d& box, double halo) {
 
 }  // namespace
 
-ShellSolid::ShellSolid(const SurfaceTree& whole) : tree(whole), convex(true) {
+LayerSolid::LayerSolid(const SurfaceTree& whole) : tree(whole), convex(true) {
     // every vertex behind every face's plane; tested for small meshes only
     const TriangleMesh& mesh = tree.mesh();
     for (const Vec3& v : mesh.vertices) box.extend(v);
@@ -70,7 +70,7 @@ ShellSolid::ShellSolid(const SurfaceTree& whole) : tree(whole), convex(true) {
     }
 }
 
-ShellTile::ShellTile(const ShellSolid& solid, const ShellOptions& options,
+LayerTile::LayerTile(const LayerSolid& solid, const LayerOptions& options,
                      const Eigen::AlignedBox3d& box)
     : tree_(solid.tree),
       convex_(solid.convex),
@@ -80,7 +80,7 @@ ShellTile::ShellTile(const ShellSolid& solid, const ShellOptions& options,
       grid_(around(box, kHalo * options.spacing).intersection(solid.box),
             kCellReach * options.spacing) {}
 
-void ShellTile::know(const Seat& seat) {
+void LayerTile::take_seat(const Seat& seat) {
     const double halo = kHalo * o_.spacing;
     if (o_.mirror && seat.center.y() > 0.0 && seat.center.y() < halo) {
         const Seat image = image_of(seat);
@@ -89,13 +89,13 @@ void ShellTile::know(const Seat& seat) {
     if (box_.exteriorDistance(seat.center) < halo) grid_.add(seat);
 }
 
-void ShellTile::add(const Seat& seat) {
+void LayerTile::add(const Seat& seat) {
     placed_.push_back(seat);
-    know(seat);
+    take_seat(seat);
 }
 
 // In a fine mesh: a seed as this one was tried before; from now on this one was.
-bool ShellTile::tried_near(const Seed& seed) {
+bool LayerTile::tried_near(const Seed& seed) {
     if (!fine_) return false;
     const double cube = kAlike * std::min(o_.spacing, o_.radius);
     const Vec3& normal = tree_.normal(seed.triangle);
@@ -111,7 +111,7 @@ bool ShellTile::tried_near(const Seed& seed) {
     return !tried_.insert(key).second;
 }
 
-bool ShellTile::place(const Vec3& start, std::int32_t hint, double separation, double mirror_gap,
+bool LayerTile::place(const Vec3& start, std::int32_t hint, double separation, double mirror_gap,
                       bool outside_too) {
     const double s = o_.spacing;
     Vec3 from = start;
@@ -134,7 +134,7 @@ bool ShellTile::place(const Vec3& start, std::int32_t hint, double separation, d
 }
 
 // The planes in which a seat has neighbours: one, or one for each face met in a crease.
-const std::vector<ShellTile::Plane>& ShellTile::planes_at(const Seat& seat) {
+const std::vector<LayerTile::Plane>& LayerTile::planes_at(const Seat& seat) {
     const auto plane = [&](const Vec3& normal) {
         // fronts that start apart on one flat face get rows along the same direction
         const Vec3 axis = std::abs(normal.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitZ();
@@ -150,7 +150,7 @@ const std::vector<ShellTile::Plane>& ShellTile::planes_at(const Seat& seat) {
 // Is a start beside the seat of planes_ beyond one of the faces that it touches? In a convex solid
 // that is outside, where nothing settles. The touches may lean by sqrt(2e-5) from the faces'
 // normals (two distances within 1e-5 count as touches), a hundredth of a spacing at a start.
-bool ShellTile::is_outside(const Vec3& start) const {
+bool LayerTile::is_outside(const Vec3& start) const {
     const double most = o_.radius + kOutside * o_.spacing;
     return convex_ && std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
                return plane.normal.dot(start - plane.centre) > most;
@@ -159,7 +159,7 @@ bool ShellTile::is_outside(const Vec3& start) const {
 
 // The seats that represent the same face, so that those of the other side of a thin part neither
 // count nor are in the way.
-void ShellTile::neighbours_in(const Plane& plane, double range) {
+void LayerTile::neighbours_in(const Plane& plane, double range) {
     neighbours_.clear();
     grid_.visit(plane.centre, range, [&](std::int32_t k, double sq) {
         if (sq < 1e-12 * range * range) return false;  // itself
@@ -171,7 +171,7 @@ void ShellTile::neighbours_in(const Plane& plane, double range) {
     });
 }
 
-void ShellTile::surround_in(const Plane& plane, std::int32_t hint) {
+void LayerTile::surround_in(const Plane& plane, std::int32_t hint) {
     const double s = kStretch * o_.spacing;
     neighbours_in(plane, kReach * s);
     for (Neighbour& n : neighbours_) n.angle = std::atan2(n.v, n.u);
@@ -208,11 +208,11 @@ void ShellTile::surround_in(const Plane& plane, std::int32_t hint) {
     }
 }
 
-void ShellTile::surround(const Seat& seat) {
+void LayerTile::surround(const Seat& seat) {
     for (const Plane& plane : planes_at(seat)) surround_in(plane, seat.triangle);
 }
 
-void ShellTile::advance_front(const std::vector<Seed>& seeds) {
+void LayerTile::advance_front(const std::vector<Seed>& seeds) {
     auto run = [&, next = std::size_t{0}]() mutable {
         for (; next < grid_.seats().size(); ++next) {
             const Seat seat = grid_.seats()[next];
@@ -230,7 +230,7 @@ void ShellTile::advance_front(const std::vector<Seed>& seeds) {
     }
 }
 
-void ShellTile::close_gaps_in(const Plane& plane, std::int32_t hint) {
+void LayerTile::close_gaps_in(const Plane& plane, std::int32_t hint) {
     const double s = o_.spacing;
     neighbours_in(plane, kCellReach * s);
     std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& l, const Neighbour& r) {
@@ -273,7 +273,7 @@ void ShellTile::close_gaps_in(const Plane& plane, std::int32_t hint) {
     }
 }
 
-void ShellTile::close_gaps() {
+void LayerTile::close_gaps() {
     for (std::size_t k = 0; k < grid_.seats().size(); ++k) {
         const Seat seat = grid_.seats()[k];
         if (o_.mirror && seat.center.y() < 0.0) continue;
@@ -282,7 +282,7 @@ void ShellTile::close_gaps() {
     }
 }
 
-void ShellTile::cover(const std::vector<Seed>& seeds) {
+void LayerTile::cover(const std::vector<Seed>& seeds) {
     const double range = kCovered * o_.spacing;
     const auto is_covered = [&](const Seed& seed) {
         return grid_.any_within(seed.seat, range, tree_.normal(seed.triangle));

@@ -9,7 +9,7 @@
 namespace ice {
 
 /// How the layer is made.
-struct ShellOptions {
+struct LayerOptions {
     double radius = 0.1;     ///< [m]
     double spacing = 0.1;    ///< wanted distance of neighbours [m]
     int dimension = 3;       ///< 3, or 2: along the section's outline
@@ -34,6 +34,6 @@ struct ShellOptions {
 /// Space is cut into tiles of eight colours; tiles of one colour are filled at the same time. The
 /// result depends on the mesh and options alone, not on the number of threads. Parts too thin for a
 /// sphere stay empty. With `mirror`, a sphere is followed by its image.
-std::vector<Vec3> make_shell(const SurfaceTree& tree, const ShellOptions& options);
+std::vector<Vec3> make_layer(const SurfaceTree& tree, const LayerOptions& options);
 
 }  // namespace ice
