@@ -31,9 +31,10 @@ void search_contacts(const PairView& view, double margin, FoundBatch::Pair& pair
     // search in floats, measurement in doubles, meshes for deep ones, then reduction
     const SphereRange range(view, margin);
     pair.spheres.clear();
-    pair.search.for_each_near(view, range.margin, range.reach, [&](std::int32_t i, std::int32_t j) {
-        pair.spheres.push_back({i, j});
-    });
+    pair.search.for_each_near(view, range.margin, range.patch_radius,
+                              [&](std::int32_t i, std::int32_t j) {
+                                  pair.spheres.push_back({i, j});
+                              });
     group_by_types(view, pair.spheres);
     measure_spheres(view, range, pair.spheres, pair.candidates);
     check_depths(view, pair.candidates);
@@ -54,11 +55,11 @@ double find_near(const PairView& view, double margin, const Skin& skin, PairSear
                  std::vector<SpherePair>& out) {
     const std::size_t first = out.size();
     const SphereRange range(view, margin + skin.distance);
-    search.for_each_near(view, range.margin, range.reach + skin.distance,
+    search.for_each_near(view, range.margin, range.patch_radius + skin.distance,
                          [&](std::int32_t i, std::int32_t j) {
                              out.push_back({i, j});
                          });
-    return bound_spheres(view, range.reach, skin, first, out);
+    return bound_spheres(view, range.patch_radius, skin, first, out);
 }
 
 // Spheres of deep bodies have passed each other: their solids tell which contacts are lost. Those
