@@ -151,8 +151,9 @@ void say_forecasts(const std::vector<ice::Warning>& warnings) {
 // All that --check does.
 int describe(const ice::Options& o, ice::World& world, const std::vector<ice::Warning>& warnings) {
     say_forecasts(warnings);
-    const std::string ice =
-        world.edge.lives() ? "level ice" : fmt::format("{} floes", world.scene.bodies.size() - 1);
+    const std::string ice = world.edge.has_sheet()
+                                ? "level ice"
+                                : fmt::format("{} floes", world.scene.bodies.size() - 1);
     ice::say(fmt::format("{}: {}, {}\n{}", o.case_file,
                          warnings.empty() ? "good" : "runs, with warnings", ice,
                          ice::describe_case(world)));

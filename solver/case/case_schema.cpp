@@ -163,7 +163,8 @@ std::vector<CaseKey> contact_keys() {
          [](Case& c, G&, const Value& v) { c.contact.crushing_pressure = number(v); }},
         // both stop a solution: the tolerance where it converges, the number where it does not
         {"contact.iterations", Kind::integer, D::none, "30", 1, 100000, 0, "",
-         "Upper bound of the contact solver's iterations for a solution; a step takes a few.",
+         "Upper bound of the contact solver's iterations, its sweeps over all contacts, for a "
+         "solution; a step takes a few solutions.",
          [](Case& c, G&, const Value& v) { c.contact.iterations = integer(v); }},
         {"contact.tolerance", Kind::number, D::speed, "1e-4", 0, 10, 0, "",
          "The solver stops when no contact's velocity changes by more than this in an iteration.",

@@ -105,7 +105,7 @@ Box LiveEdge::reach(const Scene& scene) const {
 
 void LiveEdge::find(const Case& parameters, const std::vector<Contact>& contacts,
                     const std::vector<Constraint>& constraints) {
-    if (!lives()) return;
+    if (!has_sheet()) return;
     // Every contact of a tile is a load (26): the ship's, and those of floes that it pushes.
     loads_.clear();
     for (std::size_t k = 0; k < constraints.size(); ++k) {
@@ -137,7 +137,7 @@ void LiveEdge::find(const Case& parameters, const std::vector<Contact>& contacts
 }
 
 bool LiveEdge::is_due(const Scene& scene) const {
-    if (!lives()) return false;
+    if (!has_sheet()) return false;
     if (!cracks_.empty()) return true;
     // hull and sheet are compared each time the ship has moved by an eighth of a thickness
     return (ship_in_ice(scene) - looked_at_).norm() >= kCrushed * thickness_;

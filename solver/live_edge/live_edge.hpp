@@ -47,7 +47,7 @@ struct IceAreas {
 class LiveEdge {
 public:
     /// Is there a sheet?
-    bool lives() const { return first_ > 0; }
+    bool has_sheet() const { return first_ > 0; }
 
     /// Lays the sheet of a case into a scene that has no floes yet, or others; adds the groups of
     /// its bodies to the case. Ice where the ship is, is taken away.

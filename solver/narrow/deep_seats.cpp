@@ -198,8 +198,8 @@ double find_deep_seats(const PairView& view, std::span<const Candidate> found,
     return slack - deepest;
 }
 
-void emit_deep_seats(const PairView& view, const ContactRule& rule, std::span<const DeepSeat> seats,
-                     Contact* out) {
+void make_seat_contacts(const PairView& view, const ContactRule& rule,
+                        std::span<const DeepSeat> seats, Contact* out) {
     const Mat3& rotation = view.scene.bodies.rotation[view.pair.a];
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
     for (const DeepSeat& s : seats) {

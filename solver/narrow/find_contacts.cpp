@@ -69,7 +69,7 @@ void find_lost(const PairView& view, double apart, double most, FoundBatch::Pair
     pair.seats.clear();
     if (is_deep(view, apart))
         find_lost_polygon(view, pair.candidates, most, pair.polygon);
-    else if (has_deep_seats(view, apart))
+    else if (may_have_deep_seats(view, apart))
         find_deep_seats(view, pair.candidates, pair.seats);
 }
 
@@ -243,13 +243,14 @@ void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs,
     parallel_for(found_.size(), kSerialPairs, [&](std::size_t n) {
         const Found& found = found_[n];
         if (found.corners > 0)
-            emit_polygon(PairView(scene, pairs[pairs_to_measure_[n]]), rule, found.normal,
-                         std::span(found.batch->corners).subspan(found.corner, found.corners),
-                         out.data() + found.contact + found.count);
+            make_polygon_contacts(
+                PairView(scene, pairs[pairs_to_measure_[n]]), rule, found.normal,
+                std::span(found.batch->corners).subspan(found.corner, found.corners),
+                out.data() + found.contact + found.count);
         if (found.seats > 0)
-            emit_deep_seats(PairView(scene, pairs[pairs_to_measure_[n]]), rule,
-                            std::span(found.batch->seats).subspan(found.seat, found.seats),
-                            out.data() + found.contact + found.count);
+            make_seat_contacts(PairView(scene, pairs[pairs_to_measure_[n]]), rule,
+                               std::span(found.batch->seats).subspan(found.seat, found.seats),
+                               out.data() + found.contact + found.count);
         if (found.count > 0)
             make_contacts(PairView(scene, pairs[pairs_to_measure_[n]]),
                           std::span(found.batch->candidates).subspan(found.first, found.count),
@@ -266,8 +267,8 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
     const auto append_polygon = [&] {
         const std::vector<PolygonCorner>& corners = found.polygon.corners;
         out.resize(out.size() + corners.size());
-        emit_polygon(view, how, found.polygon.normal, corners,
-                     out.data() + (out.size() - corners.size()));
+        make_polygon_contacts(view, how, found.polygon.normal, corners,
+                              out.data() + (out.size() - corners.size()));
     };
     if (meets_in_polygon(scene, pair, how)) {
         const SeparatingAxes axes = axes_of(view, margin);
@@ -303,7 +304,7 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
     find_lost(view, apart, margin, found);
     append_polygon();
     out.resize(out.size() + found.seats.size());
-    emit_deep_seats(view, how, found.seats, out.data() + (out.size() - found.seats.size()));
+    make_seat_contacts(view, how, found.seats, out.data() + (out.size() - found.seats.size()));
 }
 
 }  // namespace reference

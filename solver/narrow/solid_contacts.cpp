@@ -49,8 +49,8 @@ void find_polygon(const PairView& view, const SeparatingAxes& axes, double most,
               });
 }
 
-void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& normal,
-                  std::span<const PolygonCorner> corners, Contact* out) {
+void make_polygon_contacts(const PairView& view, const ContactRule& rule, const Vec3& normal,
+                           std::span<const PolygonCorner> corners, Contact* out) {
     const Mat3& rotation = view.scene.bodies.rotation[view.pair.a];
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
     for (const PolygonCorner& corner : corners) {

@@ -129,7 +129,7 @@ double time_of(const Case& p, double distance) {
 void measure_clearance(const World& w, const Front& front, Course& course) {
     const Bodies& b = w.scene.bodies;
     course.clearance = course.clearance_fixed = kNever;
-    if (w.edge.lives())  // the sheet's tiles come with the ship
+    if (w.edge.has_sheet())  // the sheet's tiles come with the ship
         course.clearance =
             std::max(w.parameters.level_ice.extent[0] - box_of(w.scene, kShip).max().x(), 0.0);
     for (std::size_t i = 1; i < b.size(); ++i) {
@@ -150,7 +150,7 @@ void measure_clearance(const World& w, const Front& front, Course& course) {
 // How far the ship goes until its foremost point is beyond all loose floes within its breadth.
 double distance_through(const World& w, double direction) {
     const Eigen::AlignedBox3d hull = box_of(w.scene, kShip);
-    double far = w.edge.lives() ? w.parameters.level_ice.extent[1] : -kNever;
+    double far = w.edge.has_sheet() ? w.parameters.level_ice.extent[1] : -kNever;
     for (std::size_t i = 1; i < w.scene.bodies.size(); ++i) {
         if (is_unbroken(w.scene, w.parameters, i)) continue;
         const Eigen::AlignedBox3d box = box_of(w.scene, i);

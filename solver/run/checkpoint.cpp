@@ -171,7 +171,7 @@ SavedRun read_checkpoint(const std::filesystem::path& path, World& world) {
                    std::filesystem::absolute(path).parent_path(),
                    file.created_by()};
     carry(file, world);
-    if (world.edge.lives()) world.edge.restore(world.scene, world.parameters);
+    if (world.edge.has_sheet()) world.edge.restore(world.scene, world.parameters);
     saved.recorder.carry(file);
     carry(file, saved.position);
     carry(file, saved.progress);

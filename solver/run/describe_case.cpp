@@ -64,7 +64,7 @@ std::string motion_line(const World& w) {
 
 // Level ice has no floes yet; its line has the size of cracks, by which a wrong strength shows.
 std::string ice_line(const World& w, const IceParticulars& ice) {
-    if (w.edge.lives()) {
+    if (w.edge.has_sheet()) {
         const auto& extent = w.parameters.level_ice.extent;
         if (w.edge.is_strip())
             return fmt::format(

@@ -35,7 +35,7 @@ StepView view_of(const World& w) {
             w.time,
             w.impacts.converged && w.rest.converged,
             w.ship.is_free() ? &w.ship : nullptr,
-            w.edge.lives() ? &w.edge : nullptr};
+            w.edge.has_sheet() ? &w.edge : nullptr};
 }
 
 // A body farther away than this [m] is a fault: no course is so long. Larger lets a run that fails
@@ -271,7 +271,7 @@ Summary run(World& world, const RunOptions& options) {
         go_on(job, *options.saved);
     else
         start(job);
-    if (world.edge.lives()) world.edge.keep_gone_in(options.folder);
+    if (world.edge.has_sheet()) world.edge.keep_gone_in(options.folder);
     summary.warnings.insert(summary.warnings.end(), job.progress.warnings.begin(),
                             job.progress.warnings.end());
     summary.warnings.insert(summary.warnings.end(), options.course_warnings.begin(),

@@ -58,7 +58,7 @@ void set_added_mass(Scene& scene, const Case& parameters) {
     for (std::size_t i = kShip + 1; i < b.size(); ++i) {
         const Mat3& r = b.rotation[i];
         b.momentum[i] =
-            b.mass[i] * velocity[i] + ordered_turned(r, b.inertias_of(i).added, velocity[i]);
+            b.mass[i] * velocity[i] + ordered_turned(r, b.inertia_row_of(i).added, velocity[i]);
         b.angular_momentum[i] = ordered_turned(r, b.inertia(i), spin[i]);
         update_derived(b, i);
     }

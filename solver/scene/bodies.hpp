@@ -101,7 +101,7 @@ struct Bodies {
         const Vec3 own = inverse_mass[i] * j;
         return have_added_mass() ? Vec3(own + inverse_mass_excess[i] * j) : own;
     }
-    const Inertia& inertias_of(std::size_t i) const {
+    const Inertia& inertia_row_of(std::size_t i) const {
         return inertias[static_cast<std::size_t>(inertia_row[i])];
     }
     const Mat3& inertia(std::size_t i) const {

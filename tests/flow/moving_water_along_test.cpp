@@ -41,12 +41,12 @@ std::size_t add_box(World& w, std::int32_t shape, const Vec3& at,
 
 // The whole mass matrix of a floe along a direction, or about it.
 double mass_along(const Bodies& b, std::size_t i, int axis) {
-    return b.mass[i] + b.inertias_of(i).added(axis, axis);
+    return b.mass[i] + b.inertia_row_of(i).added(axis, axis);
 }
 
 void set_motion(Bodies& b, std::size_t i, const Vec3& v, const Vec3& spin) {
     const Mat3& r = b.rotation[i];
-    b.momentum[i] = b.mass[i] * v + r * b.inertias_of(i).added * r.transpose() * v;
+    b.momentum[i] = b.mass[i] * v + r * b.inertia_row_of(i).added * r.transpose() * v;
     b.angular_momentum[i] = r * b.inertia(i) * r.transpose() * spin;
     update_derived(b, i);
 }
@@ -151,7 +151,7 @@ TEST_CASE("a floe free in water at rest moves by Kirchhoff's equations",
             require_balance(before, w);
         }
         CHECK((b.momentum[i] - momentum).norm() < tolerance(1e-11) * momentum.norm());
-        const Inertia& inertia = b.inertias_of(i);
+        const Inertia& inertia = b.inertia_row_of(i);
         const auto [exact_v, exact_spin] =
             kirchhoff(b.mass[i] * Mat3::Identity() + inertia.added, inertia.body, v, spin, time);
         const Mat3 back = b.rotation[i].transpose();
