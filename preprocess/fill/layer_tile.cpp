@@ -242,7 +242,7 @@ void LayerTile::close_gaps_in(const Plane& plane, std::int32_t hint) {
     double far_sq = 2.0 * half * half;  // of the cell's farthest corner from the centre
     for (const Neighbour& n : neighbours_) {
         // the line half way to a neighbour is at least half its distance away: it and those after
-        // it cut nothing off (the hair is for rounding)
+        // it cut nothing off; 1e-9 covers rounding
         if (0.25 * n.distance * n.distance > far_sq * (1.0 + 1e-9)) break;
         // keep the points nearer to the centre than to its neighbour n: x . n <= |n|^2 / 2
         const double length = std::hypot(n.u, n.v);

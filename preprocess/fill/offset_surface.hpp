@@ -61,7 +61,7 @@ std::optional<Seat> settle(const SurfaceTree& tree, const Vec3& start, double ra
 std::optional<Seat> settle_in_crease(const SurfaceTree& tree, const Vec3& start, double radius);
 
 /// The surface normals that a seat represents: its own, or all that meet in its crease. They are
-/// in the seat or in `found`, whatever that held.
+/// in the seat or in `found`, whose old content is dropped.
 std::span<const Vec3> normals_at(const SurfaceTree& tree, double radius, const Seat& seat,
                                  std::vector<Vec3>& found);
 

@@ -100,7 +100,7 @@ void Recess::find_moves(const Scene& scene, double dt, const std::vector<Contact
                std::tie(r.place.body, r.place.sphere, r.contact);
     });
     std::size_t kept = 0;
-    // A second contact adds to the move only what the first one does not already do along it.
+    // A second contact extends the move only where the first is shorter along its direction.
     for (const Move& m : moves_) {
         if (kept > 0 && moves_[kept - 1].place == m.place) {
             add_along(m.shift.norm(), m.shift.normalized(), moves_[kept - 1].shift);

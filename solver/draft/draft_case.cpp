@@ -101,8 +101,9 @@ void place_ship(World& w, Draft& draft) {
                         "use a field with ice at the hull's height, across its centre line");
     const double gap = 2.0 * w.scene.shapes[0].spacing;
     draft.x = std::floor(100.0 * (place.x() + course.clearance - gap)) / 100.0;
-    const double step = rounded(0.01 * ship.sizes().y(), 1);  // no digits nobody means
-    draft.y = step * std::round(place.y() / step) + 0.0;      // no -0
+    const double step =
+        rounded(0.01 * ship.sizes().y(), 1);  // a hundredth of the breadth is exact enough
+    draft.y = step * std::round(place.y() / step) + 0.0;  // no -0
     place.x() = draft.x;
     place.y() = draft.y;
 }

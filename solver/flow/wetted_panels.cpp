@@ -56,7 +56,7 @@ std::vector<Triangle> cut(const std::vector<Triangle>& from, int axis, double si
     return out;
 }
 
-// Has every vertex another one where the mirror shows it?
+// Has each vertex a mirror image?
 bool is_symmetric(const TriangleMesh& mesh, double same) {
     // sorted by x, so that only vertices of nearly the same x are compared
     std::vector<Vec3> sorted = mesh.vertices;
@@ -72,7 +72,7 @@ bool is_symmetric(const TriangleMesh& mesh, double same) {
     });
 }
 
-// At most `most` triangles, the border left as it is.
+// At most `most` triangles; open edges keep their places.
 std::vector<Triangle> simplified(const std::vector<Triangle>& from, std::size_t most) {
     // meshopt works on floats and indices; corners of the result are the doubles they came from
     std::vector<float> soup;

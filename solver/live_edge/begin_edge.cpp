@@ -77,8 +77,8 @@ void LiveEdge::set_up(const Scene& scene, const Case& p) {
 }
 
 void LiveEdge::add_slots(Scene& scene, const Case& p) {
-    // For everything that may lie within reach: pieces of a share of a half disc, and tiles along
-    // the channel's sides and ends.
+    // Slots for the pieces, each of a share of a half disc, and for the tiles along the channel's
+    // sides and ends that the hull can reach.
     const Vec2 size = reach(scene).sizes();
     const double pieces = size.x() * size.y() / (kCover * kHalfDisc * radius_ * radius_);
     const double tiles = kTilesAlong * size.x() / radius_ + kTilesAcross * size.y() / radius_;

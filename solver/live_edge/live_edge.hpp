@@ -49,12 +49,12 @@ public:
     /// Is there a sheet?
     bool has_sheet() const { return first_ > 0; }
 
-    /// Lays the sheet of a case into a scene that has no floes yet, or others; adds the groups of
-    /// its bodies to the case. Ice where the ship is, is taken away.
+    /// Lays the sheet of a case into a scene with or without other floes; adds the groups of its
+    /// bodies to the case. The sheet has no ice where the ship is.
     /// @throws Error (exit code 2) naming level_ice where the hull does not reach the ice's height
     void begin(Scene& scene, Case& parameters);
 
-    /// The ice has drifted for so long [s]; before is_due(), renew() and find() of a step.
+    /// Sets how long the ice has drifted [s]; called before is_due(), renew() and find() of a step.
     void drift_until(double time) { drifted_ = time * drift_; }
     /// Velocity of all the ice [m/s].
     const Vec2& drift() const { return drift_; }
@@ -62,7 +62,7 @@ public:
     /// Does renew() have something to do?
     bool is_due(const Scene& scene) const;
     /// Breaks off the pieces of the last step's cracks, takes away the ice that the hull has
-    /// crushed through, lays the edge anew around a ship that has gone on.
+    /// crushed through, and lays the edge anew around the ship's new place.
     /// @param time  [s]
     /// @return whether bodies have another shape now: those of changed()
     bool renew(Scene& scene, const Case& parameters, double time);
@@ -84,8 +84,8 @@ public:
     double height() const { return (0.5 - share_) * thickness_; }
     double density() const { return density_; }  ///< [kg/m3]
     double length() const { return length_; }    ///< characteristic length of the plate [m]
-    /// Side of the cells of its tiles: how far from a load it cracks at rest [m]; in 2D how far
-    /// from its tip.
+    /// Cell size of the tiles = crack radius at rest [m]; in 2D the length from the tip to the
+    /// crack.
     double radius() const { return radius_; }
     /// Is it a strip, in 2D?
     bool is_strip() const { return is_strip_; }

@@ -24,7 +24,7 @@ struct FloeLoad : WaterLoad {
 /// Loads on floes, in their order: (14), (16) or (17), (24), (25), (P1). Floes of one shape that
 /// follow each other cost less. No floes have no loads.
 /// @param floes  numbers of floes that are not held, ascending
-/// @pre what update_derived makes of their poses
+/// @pre update_derived() was called with the present poses
 /// @param out    as many
 void load_floes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,
                 std::span<FloeLoad> out);

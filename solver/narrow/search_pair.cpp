@@ -7,8 +7,8 @@ namespace ice {
 
 namespace {
 
-// Up to so many spheres [-] it costs less to compare with all than to pick the nearer ones. Only
-// time depends on it: the same pairs are found.
+// Up to this number of spheres [-] a comparison with all costs less than picking the nearer ones.
+// The pairs do not depend on it, only the time.
 constexpr std::size_t kAllAtOnce = 64;
 
 // The box around a box that was moved by p' = rotation p + translation.
@@ -29,14 +29,14 @@ FloatBox move_box(const FloatBox& box, const Mat3& rotation, const Vec3& transla
     return out;
 }
 
-// How far a sphere's partner among `others` may be, less its own hypot(normal_extent,
-// tangent_extent).
+// Largest distance of a sphere's partner among `others`, less the sphere's own
+// hypot(normal_extent, tangent_extent) [m].
 float growth_of(const SphereBlocks& others, const SearchRange& range) {
     return std::hypot(others.largest_normal_extent + range.normal_extent,
                       others.largest_tangent_extent + range.tangent_extent);
 }
 
-// Spheres of a body, picked at their places before any crushing, go to their present places.
+// Shifts a body's spheres, picked at their places before any crushing, to their present places.
 void move_crushed(const CrushedIce& crushed, std::int32_t body, const Shape& shape,
                   const Mat3& rotation, const Vec3& translation, NearSpheres& picked) {
     if (crushed.is_whole(body)) return;

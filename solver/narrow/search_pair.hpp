@@ -49,7 +49,7 @@ private:
     static bool a_has_fewer(const PairView& view) {
         return view.shape_a.center.size() < view.shape_b.center.size();
     }
-    // That many spheres, neighbours, choose together whom they are compared with.
+    // Rows that share one list of partners [-]: spheres of one group are neighbours.
     static constexpr std::size_t kRows = SphereBlocks::kGroup;
 
     // Sets few_, many_ (in the axes of the body with fewer spheres) and range_.

@@ -203,7 +203,8 @@ void Recorder::add(const StepView& view) {
         add_frame(view);
 }
 
-// Under the rule "centres" bodies are their spheres, and round the edges of their solids.
+// Under the rule "centres" bodies are sets of spheres. These leave out the edges of the solids, so
+// overlaps of solids would be no fault there.
 bool Recorder::is_check_due(double time) const {
     return parameters_.normal == NormalRule::surface && std::llround(time / dt_) % kCheckEvery == 0;
 }

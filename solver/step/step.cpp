@@ -78,8 +78,8 @@ void step(World& w) {
     Bodies& bodies = w.scene.bodies;
     begin_step(w);
 
-    // 1 ship: as prescribed, its speed at mid-step carrying it to the end of the step, or with the
-    // velocity it has come to
+    // 1 ship: a prescribed course takes the speed at mid-step; a free ship keeps its velocity of
+    // the last step
     w.ship.start_step(w.parameters, w.scene, w.time);
     w.scene.water.follow(bodies.position[kShip], w.scene.ship_velocity);
 
