@@ -273,7 +273,7 @@ int run_spherize(Options& o, const std::string& command_line) {
     ice::SphereSet set = fill_solid(o, mesh, report);
     ice::find_cut_back(set, report);
 
-    // where the set comes from goes with it
+    // the set's origin is stored with it
     const std::filesystem::path source(o.mesh);
     set.source_mesh = report.source_mesh = source.filename().string();
     set.source_sha256 = ice::file_sha256(source);

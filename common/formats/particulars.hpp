@@ -54,7 +54,7 @@ std::string release_rule(const IceParticulars& ice);
 /// case's keys: "until-hull-contact, never (loose)".
 std::string release_rule_in_words(const IceParticulars& ice);
 
-/// How far the ship goes.
+/// The ship's travel.
 struct TravelParticulars {
     double distance = kUnknown;          ///< [m]
     double lengths = kUnknown;           ///< distance in lengths of the waterline [-]

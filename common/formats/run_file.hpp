@@ -42,7 +42,7 @@ inline constexpr std::uint64_t kFrameFloeBytes = 16 * sizeof(float) + sizeof(Flo
 /// it, and so the bytes of a file with many floes.
 inline constexpr std::uint64_t kFrameFloeBound = 17 * sizeof(float);
 
-/// Where a run file stands, for a run that is continued from it.
+/// Length of a run file's datasets, for a run that is continued from it.
 struct RunPosition {
     std::int64_t samples = 0, frames = 0, contacts = 0;  ///< rows on disk
     std::vector<Eigen::Quaterniond> last_orientation;    ///< of the last frame, signs as stored

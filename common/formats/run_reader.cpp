@@ -73,7 +73,7 @@ private:
     }
 
     void read_vertices(std::vector<RunShape>& shapes) const {
-        // All shapes' vertices stand in one array [rows x 3]; shape s has rows offset[s] to
+        // All shapes' vertices are in one array [rows x 3]; shape s has rows offset[s] to
         // offset[s + 1].
         const std::uint64_t rows = rows_of("/shapes/vertices");
         const auto all = points("/shapes/vertices", {rows});

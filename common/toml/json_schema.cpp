@@ -174,7 +174,7 @@ std::string json_schema(const Schema& schema) {
         for (const std::string& path : choice)
             entry["oneOf"].push_back({{"required", {path.substr(path.rfind('.') + 1)}}});
     }
-    // [[floes]] may be missing where [level_ice] stands in its place
+    // [[floes]] may be missing where [level_ice] replaces it
     if (!schema.in_its_place.empty()) {
         for (const std::string& table : {schema.repeated_table, schema.in_its_place})
             root["anyOf"].push_back({{"required", {table}}});

@@ -207,7 +207,7 @@ private:
                      name.str().size());
             return;
         }
-        // where the key stands, for complaints that come after reading
+        // the place of the key, for complaints that come after reading
         mistakes_.places[label] =
             fmt::format("{}:{}:{}", name_, name.source().begin.line, name.source().begin.column);
         Value value;
@@ -255,7 +255,7 @@ Values read_override(const std::string& text, const Schema& schema, std::size_t 
 
 Value default_value(const Key& key, const Schema& schema) {
     ICE_ASSERT(key.default_text != "-" && !key.default_text.empty());
-    // the default goes the same way as a given value
+    // the default is read as a given value is
     Mistakes mistakes;
     std::size_t groups = 0;
     const std::string line = fmt::format("{} = {}", key.path, key.default_text);

@@ -131,7 +131,7 @@ std::string force_table(const Summary& s, const ForceUnit& unit) {
                                         unit.text(f.std),
                                         unit.text(f.max)};
     };
-    // Parts and formulas stand below the resistance that they are part of or compare with.
+    // Parts and formulas are below the resistance that they are part of or compare with.
     std::vector<std::vector<std::string>> rows{row("Resistance (\u2212x)", s.resistance)};
     for (const auto& [name, part] : parts_of(s))
         rows.push_back({"  of it " + name, unit.text(part), "", "", "", ""});

@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    // JSON stands within a script element, which no text of a case may end
+    // JSON is within a script element, which no text of a case may end
     static std::string safe_text(const std::string& text) {
         std::string out;
         for (const char c : text)

@@ -178,7 +178,7 @@ std::string other_axis(const Sweep& sweep) {
 }
 
 // Names in the overview's legend: labels, or shorter names where these are too long for one row:
-// the values of the only other axis, whose name goes into the title, or letters.
+// the values of the only other axis, whose name is in the title, or letters.
 std::vector<std::string> name_curves(const Sweep& sweep, const std::vector<Curve>& curves,
                                      bool& valued) {
     // Letters of a legend [-] that fit one row of a chart 860 px wide, names with their samples.

@@ -70,7 +70,7 @@ std::vector<Vec3> corners_of(const TriangleMesh& mesh, const std::vector<std::in
     };
     for (std::size_t k = 0; k < n; ++k) {
         const Vec3 in = at(k) - at(k + n - 1), out = at(k + 1) - at(k);
-        // 1e-6 is the sine of the angle below which an edge goes straight on; an edge that turns
+        // 1e-6 is the sine of the angle below which an edge counts as straight; an edge that turns
         // back is a corner, too
         if (in.cross(out).norm() > 1e-6 * in.norm() * out.norm() || in.dot(out) < 0.0)
             corners.push_back(at(k));

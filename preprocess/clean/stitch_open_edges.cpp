@@ -103,7 +103,7 @@ bool split_edges(TriangleMesh& mesh, double tolerance, StitchCounts& counts) {
             std::min(tolerance, kOfEdge * (segments.back().second - segments.back().first).norm()));
     }
     Inserted inserted;
-    std::size_t last = points.size();  // a vertex goes into the nearest edge only
+    std::size_t last = points.size();  // a vertex is inserted into the nearest edge only
     for (const NearEdge& near : find_near_edges(points, segments, reach)) {
         const MeshEdge& edge = open.edges[near.edge];
         const std::int32_t v = open.vertices[near.point];

@@ -14,7 +14,7 @@ namespace ice {
 namespace {
 
 // Cosine of 6.3 degrees [-]: the sides of an arc meet in edges and corners, too. Without them no
-// sphere has the normals between two sides, and another piece's edge goes in there. A larger value
+// sphere has the normals between two sides, and another piece's edge enters there. A larger value
 // puts spheres into flatter edges, a smaller one leaves more edges of arcs without.
 constexpr double kSharp = 0.994;
 

@@ -226,7 +226,7 @@ void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vec
         gap_max = std::max(gap_max, static_cast<double>(sight.gap));
         error_max = std::max(error_max, static_cast<double>(sight.normal_error));
     }
-    // the sphere a sample belongs to may stand aside by as much as the layer's spacing allows
+    // the sphere of a sample may lie aside by as much as the layer's spacing allows
     const double thin_gap =
         std::hypot((1.0 + kThinGap) * set.radius, kAside * set.spacing) - set.radius;
     Histogram gaps(gap_max), errors(error_max);

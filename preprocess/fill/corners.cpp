@@ -129,7 +129,8 @@ CornerCount count_corners(const SurfaceTree& tree, const SphereSet& set, bool ha
     ICE_ASSERT(set.dimension == 3 && set.surface_count <= set.centers.size());
     std::vector<std::vector<Seat>> found(set.surface_count);
     parallel_for(set.surface_count, 64, [&](std::size_t k) {
-        // A corner is looked for from the edges that end in it: spheres on faces cannot lead there.
+        // The search for a corner starts from the edges that end in it: spheres on faces do not
+        // lead there.
         const bool on_face = set.normal_spread[k] == 0.0;
         if (on_face || (half && set.centers[k].y() < 0.0)) return;
         Seat seat{set.centers[k], set.normals[k], -1};

@@ -40,8 +40,8 @@ struct FillOptions {
 /// Lattice: a cubic one alone (fill/lattice.hpp). Shares, normals and the certificate are filled
 /// in; names and provenance are the caller's.
 ///
-/// The largest sphere inside is looked for first. The time falls as the radius grows: it is spent
-/// on places of the surface that are a part of the radius apart, not on the mesh's triangles.
+/// The search for the largest sphere inside comes first. The time falls as the radius grows: it is
+/// spent on places of the surface that are a part of the radius apart, not on the mesh's triangles.
 ///
 /// @throws Error (exit code 2) when no sphere fits, naming the largest radius that does
 SphereSet fill_spheres(const TriangleMesh& solid, const FillOptions& options,

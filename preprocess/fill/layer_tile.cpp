@@ -190,13 +190,13 @@ void LayerTile::surround_in(const Plane& plane, std::int32_t hint) {
     }
     const std::size_t count = neighbours_.size();
     for (std::size_t k = 0; k < count; ++k) {
-        // Six neighbours of a hexagon stand 60 degrees apart: a gap of more than 90 degrees
+        // Six neighbours of a hexagon are 60 degrees apart: a gap of more than 90 degrees
         // takes another one, or several.
         const double end =
             k + 1 < count ? neighbours_[k + 1].angle : neighbours_.front().angle + 2.0 * kPi;
         double angle = neighbours_[k].angle, distance = neighbours_[k].distance;
         while (end - angle > kPi / 2.0) {
-            // one place between two neighbours stands midway; of more, the first stands at the
+            // one place between two neighbours is midway; of more, the first is at the
             // spacing from both the centre and the neighbour
             const bool last = end - angle < 5.0 / 6.0 * kPi;
             angle += last ? 0.5 * (end - angle)

@@ -103,7 +103,7 @@ private:
     }
 
     // Runs fill(work, tile) for all tiles, one colour after the other: tiles of one colour are a
-    // tile's width apart, and none looks or places farther than two spacings beyond its own.
+    // tile's width apart, and none searches or places farther than two spacings beyond its own.
     template <class Fill>
     void fill_tiles(const Fill& fill) {
         for (int colour = 0; colour < 8; ++colour) {

@@ -22,12 +22,12 @@ struct LayerOptions {
 
 /// Centres of spheres that touch the surface from inside, spaced evenly: the conforming layer.
 ///
-/// 1. Lines: sharp edges first (in 2D the outline); their spheres touch both faces and stand evenly
-///    between the corners, at most `spacing` apart.
+/// 1. Lines: sharp edges first (in 2D the outline); their spheres touch both faces and are spaced
+///    evenly between the corners, at most `spacing` apart.
 /// 2. Fronts: round every sphere the free places of a hexagon are filled, settled on the offset
 ///    surface and kept if no neighbour is nearer than 0.74 spacing; parts that no edge leads to
 ///    start their own.
-/// 3. Gaps: a sphere goes into every corner of the spheres' Voronoi cells that is farther than
+/// 3. Gaps: a sphere is placed in every corner of the spheres' Voronoi cells that is farther than
 ///    0.635 spacing from all of them, and wherever a surface sample that a sphere can touch still
 ///    has none.
 ///

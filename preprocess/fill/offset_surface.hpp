@@ -25,7 +25,7 @@ struct Seat {
                              ///< their normals
     double agree = 0.4226;   ///< cosine of kFaceTurn plus the cone's half angle
     int touches = 0;         ///< in a crease: how many of `touch` are known; 0: they are not
-    std::array<Vec3, 3> touch{};  ///< touch_directions(), not to be looked for at every question
+    std::array<Vec3, 3> touch{};  ///< touch_directions(), found once and kept
 
     /// True where the seat represents a surface with this normal.
     bool agrees(const Vec3& surface_normal) const { return normal.dot(surface_normal) >= agree; }

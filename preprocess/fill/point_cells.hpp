@@ -21,7 +21,7 @@ class PointCells {
 public:
     /// @param points  copied; not empty
     /// @param cell    edge of a hashed cube [m], about the distance between neighbouring points;
-    ///                numbered ones cost less to look into and are half as wide
+    ///                numbered ones cost less to search and are half as wide
     PointCells(std::span<const Vec3> points, double cell);
 
     struct Nearest {

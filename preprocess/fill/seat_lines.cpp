@@ -219,7 +219,7 @@ public:
     }
 
 private:
-    // Of the half y >= 0. Only a corner may stand as near to its own image as it is.
+    // Of the half y >= 0. Only a corner may lie at any distance from its own image.
     std::optional<Seat> in_half(const Seat& seat) const {
         if (!o_.mirror) return seat;
         if (is_corner(seat) && seat.center.y() > kSameCorner * o_.spacing) return seat;

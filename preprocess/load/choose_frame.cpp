@@ -232,7 +232,8 @@ private:
                             axis_name(longest), frame_.forward.text()));
     }
 
-    // An open half hull in other axes: named, not turned, since an open deck looks the same.
+    // An open half hull in other axes: named, not turned, since an open deck has the same open
+    // edges.
     void doubt_half() {
         // the axis that is left: the three numbers add up to 3
         const int port = 3 - frame_.up.axis - frame_.forward.axis;

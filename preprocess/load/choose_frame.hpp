@@ -48,7 +48,7 @@ struct ReadNotes {
     /// long in metres". No entry where an option gave the value.
     std::map<std::string, std::string> guessed;
     std::vector<std::string> warnings;
-    std::int64_t centre_plane_dropped = 0;  ///< triangles in y = 0 that went before mirroring
+    std::int64_t centre_plane_dropped = 0;  ///< triangles in y = 0 removed before mirroring
 };
 
 /// Units and axes in use.

@@ -73,8 +73,8 @@ public:
         box_ = box;
     }
 
-    // A cap of guessed shape where the solid ends along its length: how much farther it went, a
-    // whole stem perhaps, nothing tells, however little volume that had.
+    // A cap of guessed shape where the solid ends along its length. A whole stem may be missing
+    // there; its length is unknown, however small its volume.
     bool cuts_an_end(const Cap& cap, const CapVerdict& verdict) const {
         if (verdict.kind != CapKind::small || verdict.area <= kEnd * surface_ ||
             cap.rim.size() <= kFewEdges)
@@ -204,7 +204,7 @@ private:
         const auto first = static_cast<std::size_t>(cap.first);
         for (std::int32_t t = cap.first; t < cap.first + cap.count; ++t)
             for (int k = 0; k < 3; ++k) rim.extend(mesh_.corner(static_cast<std::size_t>(t), k));
-        std::vector<Vec3> higher;  // corners that might stand above the cap
+        std::vector<Vec3> higher;  // corners that might be above the cap
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
             if (parts_.of_triangle[t] != parts_.of_triangle[first]) continue;
             for (int k = 0; k < 3; ++k) {

@@ -69,7 +69,7 @@ private:
         table = now;
     }
 
-    // Keys of [[floes]] stand together in the schema. @return the first key behind them
+    // Keys of [[floes]] are adjacent in the schema. @return the first key behind them
     std::size_t build_floes(std::size_t first) {
         const auto& keys = case_keys();
         std::size_t end = first;
@@ -260,7 +260,7 @@ private:
     Case case_;
 };
 
-// "floes.gap" of an override goes to every group
+// "floes.gap" of an override applies to every group
 void spread_to_groups(Values& values, std::size_t groups) {
     for (const CaseKey& key : case_keys()) {
         const auto found = values.find(std::string(key.path));

@@ -27,7 +27,7 @@ public:
     double energy_gain(const Bodies& bodies, const ContactRows& contacts,
                        const std::vector<Constraint>& constraints);
 
-    /// Remembers the solution with rebound and goes back to the beginning.
+    /// Keeps the solution with rebound and restores the start.
     void set_aside(Bodies& bodies, const ContactRows& contacts,
                    std::vector<Constraint>& constraints);
 

@@ -41,7 +41,7 @@ public:
     /// deep pair thus opens at five radii R a second; with longer ones a tenth of a radius in each
     /// step, which is slower.
     ///
-    /// Contacts at their bound are left alone: that ice is gone. A free ship moves by its
+    /// Contacts at their bound are left out: that ice is crushed. A free ship moves by its
     /// share, of its mass and the water's that moves along; one on a prescribed course does not
     /// move.
     /// @param dt   time step [s]

@@ -172,7 +172,7 @@ bool ContactSolver::enlist(const Bodies& bodies, const std::vector<Constraint>& 
         if (closes >= -kNear || c.rest_normal > 0.0)
             active_.push_back(static_cast<std::int32_t>(k));
     }
-    // Nothing of the others closes by more than the tolerance: the last solution stands.
+    // No other contact closes by more than the tolerance: the last solution is the result.
     if (before > 0 && most <= tolerance * dt) {
         active_.resize(before);
         return false;

@@ -30,8 +30,8 @@ struct Draft {
 /// - Speed: 4 kn at 100 m, by Froude's rule, to two digits.
 /// - Travel: 1.5 lengths of the waterline, or the length of the field; averages over the last
 ///   length of it, or its last two thirds.
-/// - Time step: in it the ship goes a fifth of the smallest sphere's radius, rounded down to 1, 2
-///   or 5 of a decade.
+/// - Time step: the ship moves by a fifth of the smallest sphere's radius in it, rounded down to 1,
+///   2 or 5 of a decade.
 /// @throws Error (exit code 2) for a field that is too short to be entered, and what building a
 ///         scene throws
 Draft draft_case(const std::filesystem::path& hull, const std::filesystem::path& field);

@@ -146,7 +146,7 @@ void measure(const std::vector<Triangle>& triangles, bool symmetric, WettedHull&
         out.volume += nx * (t[0].x() + t[1].x() + t[2].x()) / 3.0;
     }
     if (symmetric) {
-        // the half that was measured stands for both
+        // the half that was measured represents both
         out.volume *= 2.0;
         const double breadth = box.max().y();
         box.extend(Vec3(box.max().x(), -breadth, box.min().z()));

@@ -106,7 +106,7 @@ void GonePieces::read(std::vector<IcePiece>& out) const {
             piece.outline.emplace_back(corners[c], corners[c + 1]);
         out.push_back(std::move(piece));
     }
-    // the next piece goes to the end
+    // the next piece is appended
     std::fseek(file, 0, SEEK_END);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The edge of level ice; the ship breaks pieces off it while it goes (docs/method.md, section 5).
+/// The edge of level ice; the ship breaks pieces off it as it advances (docs/method.md, section 5).
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace ice {
 
 class CheckpointFile;
 
-/// Where the area of a sheet has gone [m2]; the five add up to the sheet's at the start.
+/// The uses of a sheet's area [m2]; the five add up to the sheet's at the start.
 struct IceAreas {
     double sheet = 0.0;    ///< unbroken, within reach and ahead
     double pieces = 0.0;   ///< floes that broke off, those far astern too
@@ -38,7 +38,7 @@ struct IceAreas {
 ///
 /// Polygon, tiles and cracks are in the ice's own axes, which drift with it: places in the world
 /// are theirs plus drift() times the time. So ice that drifts past a ship is the same to it as a
-/// ship that goes through ice.
+/// ship in ice.
 ///
 /// In 2D the sheet is a strip (strip.hpp): areas are lengths, per metre of breadth.
 ///

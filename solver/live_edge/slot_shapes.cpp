@@ -26,7 +26,7 @@ constexpr double kParked = 1000.0;
 PrismSpec prism_spec(const Case& p) {
     const LevelIce& ice = p.level_ice;
     const double radius = kRadius * ice.thickness;
-    // a corner's disc stands for its radius of both faces: finer discs, finer sections
+    // a corner's disc represents its radius of both faces: finer discs, finer sections
     return {ice.thickness, 0.0, p.dimension == 2 ? std::min(radius, ice.spacing) : radius,
             ice.spacing, true};
 }

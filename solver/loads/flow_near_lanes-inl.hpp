@@ -59,7 +59,7 @@ public:
 
 private:
     // Places that are kept [-], those of some 60 triangles. More take stack of every call; fewer
-    // look up again what was known. The bits are the same.
+    // look up known values again. The bits are the same.
     static constexpr std::size_t kFew = 128;
 
     HWY_INLINE Vectors LookedUp(std::size_t k) const {

@@ -72,7 +72,7 @@ void make_polygon_contacts(const PairView& view, const ContactRule& rule, const 
         contact.sphere_a = nearest_sphere(view.shape_a, corner.point);
         contact.sphere_b = nearest_sphere(view.shape_b, view.to_b(corner.point));
         if (ship) contact.region = view.shape_a.region.at(contact.sphere_a, normal);
-        // the ice that has been crushed there is gone; depth counts from where its surface was
+        // the ice that was crushed there is left out; depth counts from its old surface
         contact.gap += crushed_depth(view, contact.sphere_b, normal);
         contact.patch = ice_patch(view, contact.sphere_b, normal, contact.gap);
     }

@@ -16,7 +16,7 @@ namespace {
 // it. Only the warning depends on this number.
 constexpr double kWorryingResidual = 0.005;
 
-// Where the work of one contact goes, (19). @param start  velocities at the start of the step
+// The uses of the work of one contact, (19). @param start  velocities at the start of the step
 void enter_contact(const Bodies& now, const Constraint& c, const StepStart& start,
                    EnergyLedger& ledger) {
     const Vec3 before = start.velocity[c.b] + start.angular_velocity[c.b].cross(c.arm_b) -

@@ -55,7 +55,7 @@ void measure_sizes(const Scene& scene, const Case& parameters, IceParticulars& i
         // Unbroken ice has the size of its pieces in the file, which means nothing to the ship.
         if (group.hold == Hold::always) continue;
         const double size = size_of(shape_of(scene, i), group.orientation.toRotationMatrix());
-        ice.floe_size_min = std::fmin(ice.floe_size_min, size);  // fmin: NaN stands for none
+        ice.floe_size_min = std::fmin(ice.floe_size_min, size);  // fmin: NaN means none
         ice.floe_size_max = std::fmax(ice.floe_size_max, size);
         sum += size;
         ++ice.floes;

@@ -334,7 +334,7 @@ void Recorder::finish(const StepView& view, Summary& summary) {
     for (CsvFile& file : csv_files_) file.finish();
     fill_energy(view.ledger, potential_energy(view.scene, parameters_), summary);
     if (view.ship != nullptr) ship_statistics_.fill(*view.ship, view.scene, parameters_, summary);
-    statistics_.fill(summary);  // after the energies: its warnings look at them
+    statistics_.fill(summary);  // after the energies: its warnings use them
     panel_loads_.fill(summary);
     // row 0 is for parts without a name; a mesh with names mostly has no such parts
     const auto& names = view.scene.shapes[0].region_names;

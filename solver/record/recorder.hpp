@@ -35,7 +35,7 @@ struct StepView {
     const LiveEdge* edge = nullptr;  ///< null without level ice
 };
 
-/// Where the files of a run stand, for a run that is continued from them.
+/// Lengths of a run's files, for a run that is continued from them.
 struct RecordPosition {
     RunPosition run;
     std::vector<std::int64_t> csv_bytes;  ///< of forces.csv, then of the tracked floes' files
@@ -54,7 +54,7 @@ public:
     /// @throws Error (exit code 1) when it cannot.
     void open(const std::filesystem::path& folder, const std::string& command_line,
               const Scene& scene);
-    /// Goes on where an earlier run stood, from its files in `earlier`, which may be `folder`:
+    /// Continues an earlier run from its files in `earlier`, which may be `folder`:
     /// their first rows as far as `position`.
     /// @pre the state was carried over (run/state_fields.hpp)
     /// @return names of the files whose earlier rows are missing there: those begin now

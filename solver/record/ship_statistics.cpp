@@ -17,11 +17,11 @@ namespace ice {
 
 namespace {
 
-// A ship that goes slower than this [m/s] for this time [s] counts as stuck in ice: it is noted in
+// A ship slower than this [m/s] for this time [s] counts as stuck in ice: it is noted in
 // the summary, and nothing else depends on it. Larger speeds or shorter times note ramming, too.
 constexpr double kSlow = 0.1;
 constexpr double kStuckTime = 10.0;
-// Ordinates of the periodogram in which a period is looked for [-]: the shortest is a 400th of the
+// Ordinates of the periodogram that are searched for a period [-]: the shortest is a 400th of the
 // series. More find shorter periods and take as much longer.
 constexpr std::size_t kMostOrdinates = 400;
 
@@ -51,7 +51,7 @@ void ShipStatistics::add(const FreeShip& ship, const Scene& scene, const Case& p
     if (std::abs(speed) >= kSlow) slow_since_ = time;
     stuck_ = stuck_ || time - slow_since_ >= kStuckTime;
     if (time < p.average_from - 1e-9) return;
-    // Speed along the heading, not along x: a ship that yaws still goes ahead.
+    // Speed along the heading, not along x: a ship that yaws still advances.
     speed_.add(speed);
     thrust_.add(ship.loads().thrust);
     tow_.add(ship.loads().tow.force.x());

@@ -15,7 +15,7 @@ struct UnseenOverlap {
     double depth;  ///< deepest point less the contacts' own depth [m]
 };
 
-/// Overlaps found between all bodies; crushed ice is gone and no overlap.
+/// Overlaps found between all bodies; crushed ice is no overlap.
 struct OverlapFound {
     double deepest = 0.0;               ///< of two solids [m]
     std::vector<UnseenOverlap> unseen;  ///< in the order of the pairs

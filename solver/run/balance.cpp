@@ -13,7 +13,7 @@ namespace ice {
 
 namespace {
 
-// A sum that should vanish, and the size of what went into it.
+// A sum that should vanish, and the sum of its terms' magnitudes.
 struct Sum {
     Vec3 value = Vec3::Zero();
     double size = 0.0;

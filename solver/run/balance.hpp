@@ -57,7 +57,7 @@ Momenta momenta_of(const World& world);
 /// lines, held ice and the constraints of locked motions change the momentum of ship and floes, and
 /// nothing else does.
 ///
-/// Each residual is divided by the sum of the magnitudes of its terms; 2D looks at x, z and the
+/// Each residual is divided by the sum of the magnitudes of its terms; 2D compares x, z and the
 /// moment about y only.
 Imbalance measure_imbalance(const Momenta& before, const World& after);
 

@@ -19,7 +19,7 @@ namespace ice {
 
 namespace {
 
-// A part of the hull in the ice belt that is worth a warning when no sphere stands for it: the
+// A part of the hull in the ice belt that is worth a warning when no sphere represents it: the
 // edges of a deck or a transom in full-bodied hulls stay below it. A share of the area [-]: a
 // larger one leaves such parts unsaid, a smaller one warns of edges; only the warning depends on
 // it.

@@ -116,7 +116,7 @@ std::string course_line(const World& w, const ShipParticulars& ship, const Cours
 
 std::string spheres_line(const World& w) {
     const Shape& hull = w.scene.shapes[0];
-    // The first ice shape stands for all: a field's shapes share radius and spacing.
+    // The first ice shape represents all: a field's shapes share radius and spacing.
     std::string out = fmt::format("  spheres    hull {:.3g} m, {:.3g} m apart", hull.largest_radius,
                                   hull.spacing);
     if (w.scene.shapes.size() > 1)

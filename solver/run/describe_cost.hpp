@@ -19,7 +19,7 @@ struct RunCost {
 };
 RunCost run_cost(const Case& parameters, std::size_t floes, std::size_t regions);
 
-/// One line for `icesolve --check`: time from some first steps, which the world then has gone, disk
+/// One line for `icesolve --check`: time from some first steps, which the world has then made, disk
 /// and memory. The time is a lower bound where the ship has not met the ice yet, and says so.
 std::string describe_cost(World& world);
 

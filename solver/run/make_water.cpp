@@ -92,7 +92,7 @@ std::filesystem::path kept_as(const std::filesystem::path& spheres, std::uint64_
 }
 
 // Of several runs at once the first makes a flow, the others wait for it. The lock is a file of its
-// own, gone afterwards; where none can be made, each makes its own.
+// own, removed afterwards; where none can be made, each makes its own.
 class OneMaker {
 public:
     explicit OneMaker(const std::filesystem::path& flow)

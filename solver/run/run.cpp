@@ -89,7 +89,7 @@ void write_summary(const World& w, const RunOptions& options, double wall_second
                    Recorder& recorder, Summary& summary) {
     // before the summary is completed: means over ship lengths need the travel
     fill_particulars(w.scene, w.parameters, w.time, summary, recorder.travel(view_of(w)));
-    recorder.finish(view_of(w), summary);  // its warnings look at the travel
+    recorder.finish(view_of(w), summary);  // its warnings use the travel
     if (auto warning = warn_of_open_end(w.scene, w.parameters, summary.travel.distance))
         summary.warnings.push_back(*warning);
     fill_run(w, wall_seconds, summary);
@@ -210,7 +210,7 @@ bool is_due(const Job& job) {
 void advance(Job& job) {
     World& w = job.world;
     while (w.steps < job.steps) {
-        // room is looked at before the step: what it writes must fit
+        // room is checked before the step: its output must fit
         if (job.room.is_short(job.recorder, w)) return stop_for_room(job);
         if (job.options.verify)
             verified_step(w, job.summary);
@@ -249,7 +249,7 @@ Summary run(World& world, const RunOptions& options) {
     world.ship.begin(p, world.scene);
     create_folder(options.folder);
     std::string command = options.command_line;
-    std::replace(command.begin(), command.end(), '\n', ' ');  // it stands in a comment
+    std::replace(command.begin(), command.end(), '\n', ' ');  // it is part of a comment
     write_text_file(
         options.folder / "case.resolved.cfg",
         fmt::format("# icesolve {} ({})\n# {}\n{}", version(), git_commit(), command, p.resolved));

@@ -11,7 +11,7 @@ namespace ice {
 
 class CheckpointFile;
 
-/// Where the energy of a free ship goes, in its free motions, since the start [J]:
+/// The energy ledger of a free ship, in its free motions, since the start [J]:
 ///
 ///     thrust + tow + mooring + separation = ice + losses + dK + dU + residual,
 ///

@@ -34,7 +34,7 @@ double contact_margin(const Case& p) {
     return kMargin + lift * p.gravity * p.time_step * p.time_step;
 }
 
-// The edge of level ice breaks and goes with the ship: the contacts of bodies that have another
+// The edge of level ice breaks and follows the ship: the contacts of bodies that have another
 // shape now are forgotten. Mass that comes into the scene or leaves it is no work.
 void renew_edge(World& w) {
     w.edge.drift_until(w.time);
