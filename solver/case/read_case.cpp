@@ -30,8 +30,8 @@ public:
     }
 
     Case build() {
-        // Which of several keys is meant first: it decides what is missing and some of the
-        // defaults.
+        // The choice among exclusive keys comes first: it decides which keys are missing, and
+        // some defaults.
         check_choices();
         case_.floes.resize(groups_);
         std::string table;

@@ -18,14 +18,14 @@ namespace ice {
 
 namespace {
 
-// Solutions with rebound at most [-]; the second one is for contacts that crush by another's
-// rebound. Contacts that only this one brings to their bound keep what rebound it leaves them. Each
-// more costs a solution; decided in each sweep instead, two answers took turns and most steps did
-// not converge (docs/design-notes.md).
+// Solutions with rebound at most [-]. The second one is for contacts that crush by another's
+// rebound; contacts that reach their bound only in this one keep its rebound. Another one would
+// cost a further solution. Where each sweep decided, two results alternated and most steps did not
+// converge (docs/design-notes.md).
 constexpr int kRebounds = 2;
 
-// The last third of the iterations is plain sweeps: they end near the answer also where the
-// accelerated ones go round it. A larger divisor [-] leaves fewer plain sweeps; only solutions that
+// The last third of the iterations is plain sweeps: they end near the solution also where the
+// accelerated ones circle it. A larger divisor [-] leaves fewer plain sweeps; only solutions that
 // take many iterations reach them.
 constexpr int kPlainShare = 3;
 
@@ -34,16 +34,16 @@ constexpr int kPlainShare = 3;
 // 1.07 to 1.14; twice as much takes a fifth more contacts.
 constexpr double kNear = 1e-4;
 
-// Rest solutions at most [-]: each adds the contacts that the last one closed; what is left becomes
-// overlap. Fewer leave more steps unconverged; a step with more than two is rare.
+// Rest solutions at most [-]: each adds the contacts that the last one closed; closing that is left
+// becomes overlap. Fewer leave more steps unconverged; a step with more than two is rare.
 constexpr int kRestSolutions = 5;
 
 bool meets_within_step(const Constraint& c, double dt) {
     return c.gap + dt * std::min(c.approach, 0.0) <= 0.0;
 }
 
-// The ship and held ice where no impulse moves either along the normal: the ice is crushed. A ship
-// that can move in other directions is rubbed, by no more than what ends the sliding.
+// The ship and held ice, if no impulse moves either of them along the normal: the ice is crushed.
+// On a ship that is free in other directions friction acts, at most as much as ends the sliding.
 void drive_through(Bodies& bodies, Constraint& c) {
     // friction opposite the sliding velocity, on the cone: mu times the bound
     const Vec3 v = relative_velocity(bodies, c);
@@ -110,7 +110,7 @@ SolveReport ContactSolver::solve_impacts(Bodies& bodies, std::vector<Constraint>
 
 // Newton's restitution, but none where the ice crushes. Which contacts crush is known once the
 // bodies have stopped, and again once others rebounded: a contact once crushed stays so, or the two
-// answers would take turns.
+// results would alternate.
 SolveReport ContactSolver::rebound(Bodies& bodies, std::vector<Constraint>& constraints,
                                    const ContactLaw& law) {
     if (law.is_rigid()) return solve_impacts(bodies, constraints, law, law.restitution);

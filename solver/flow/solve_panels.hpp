@@ -30,7 +30,7 @@ struct PanelFlow {
 /// @throws Error (exit code 1) where the solver does not settle: thin plates, panels that cross
 PanelFlow solve_panels(PanelBody body, const Vec3& direction = Vec3::UnitX());
 
-/// Strengths [m/s] with which the mean of v . n over each panel is what is wanted: a column for
+/// Strengths [m/s] with which the mean of v . n over each panel has the wanted value: a column for
 /// each right-hand side. As solve_panels(), whose right-hand side is direction . n.
 /// @param wanted      a row for each panel [m/s]
 /// @param iterations  of the linear solver for the last column; may be null

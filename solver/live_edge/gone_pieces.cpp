@@ -62,7 +62,7 @@ void GonePieces::open(const std::filesystem::path& folder) {
 
 void GonePieces::add(const IcePiece& piece) {
     ICE_ASSERT(is_open());
-    // written at once: a run that ends by a full disk says so in the step that lost a piece
+    // written at once: a full disk is reported in the step that lost a piece
     std::vector<double> row{static_cast<double>(piece.number),
                             static_cast<double>(piece.body),
                             piece.born,

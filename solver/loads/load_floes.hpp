@@ -11,14 +11,14 @@
 namespace ice {
 
 /// Gravity, buoyancy, drag and the flow's pressure on a floe together, and the parts that the
-/// energy ledger tells apart.
+/// energy ledger has apart.
 struct FloeLoad : WaterLoad {
     WaterLoad drag;      ///< its part
     WaterLoad pressure;  ///< the part of the flow's dynamic pressure (flow.pressure)
     WaterLoad applied;   ///< the caller's own part (World::applied_loads)
     /// Moment of the buoyancy [N m], also where the model leaves it out.
     Vec3 righting = Vec3::Zero();
-    double water_power = 0.0;  ///< what moving water puts in: drag times its velocity [W]
+    double water_power = 0.0;  ///< of moving water: drag times its velocity [W]
 };
 
 /// Loads on floes, in their order: (14), (16) or (17), (24), (25), (P1). Floes of one shape that

@@ -28,7 +28,7 @@ void find_polygon(const PairView& view, const SeparatingAxes& axes, double most,
 void make_polygon_contacts(const PairView& view, const ContactRule& rule, const Vec3& normal,
                            std::span<const PolygonCorner> corners, Contact* out);
 
-/// Are both bodies convex solids (Shape::convex)? Then one axis tells how deep they lie.
+/// Are both bodies convex solids (Shape::convex)? Then the separating axis gives their depth.
 inline bool is_convex_pair(const PairView& view) {
     return !view.shape_a.convex.empty() && !view.shape_b.convex.empty();
 }

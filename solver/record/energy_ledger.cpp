@@ -36,8 +36,7 @@ void enter_contact(const Bodies& now, const Constraint& c, const StepStart& star
     const auto works_on = [&](std::int32_t i) {  // drifting held ice, on its neighbours
         return i != static_cast<std::int32_t>(kShip) && now.held[i] != 0;
     };
-    // Held ice that drifts is moved by no force of the model: whatever it gives to others comes
-    // from outside.
+    // No force of the model moves held ice that drifts: its work on others comes from outside.
     if (works_on(c.a)) ledger.drift_work += (push + rub).dot(now.velocity[c.a]);
     if (works_on(c.b)) ledger.drift_work -= (push + rub).dot(now.velocity[c.b]);
     if (c.a != static_cast<std::int32_t>(kShip)) return;

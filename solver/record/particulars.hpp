@@ -22,8 +22,8 @@ ShipParticulars measure_ship(const Scene& scene, const Case& parameters);
 ShipParticulars measure_ship(const Scene& scene, const Case& parameters, double height);
 
 /// The floes that may move: those of groups that are not held always. Their plan area is the area
-/// seen from above in their group's orientation, whatever became of them since; overhangs count
-/// twice. Without floes: the case's own values.
+/// seen from above in their group's orientation, not in the present one; overhangs count twice.
+/// Without floes: the case's own values.
 IceParticulars measure_ice(const Scene& scene, const Case& parameters);
 
 /// Mean speed [m/s] from average_from to `until`, or over the whole run where it ends before.
@@ -32,7 +32,7 @@ double speed_mean(const Case& parameters, double until);
 /// Travel from the start to `until` [s], in metres and lengths of the waterline.
 TravelParticulars measure_travel(const Case& parameters, const ShipParticulars& ship, double until);
 
-/// How a free ship travelled, and how it lies in calm water.
+/// Travel of a free ship, and its height in calm water.
 struct FreeTravel {
     double height;              ///< of the mesh's origin at equilibrium [m]
     double speed_mean;          ///< over the averaged time [m/s]
@@ -40,7 +40,7 @@ struct FreeTravel {
 };
 
 /// Fills ship, ice, travel, formulas and lindqvist_submersion of a run that ended at `until` [s].
-/// @param went  of a free ship; others keep the prescribed course
+/// @param went  of a free ship; none on a prescribed course
 void fill_particulars(const Scene& scene, const Case& parameters, double until, Summary& summary,
                       const std::optional<FreeTravel>& went = std::nullopt);
 

@@ -62,14 +62,14 @@ public:
                                     const std::string& command_line, const Scene& scene,
                                     const std::filesystem::path& earlier,
                                     const RecordPosition& position);
-    /// Puts all rows up to now where a kill does not harm them, and tells how many there are.
+    /// Saves all rows up to now from a kill. @return their numbers
     RecordPosition save_rows();
-    /// Writes all rows up to now into their own files, and tells how many there are: for a run that
-    /// ends here.
+    /// Writes all rows up to now into their own files, for a run that ends here. @return their
+    /// numbers
     RecordPosition write_rows();
     /// Bytes of the rows of run.h5 that wait to be written.
     std::uint64_t waiting_bytes() const { return run_->waiting_bytes(); }
-    /// Will the next rows make it write them?
+    /// Will the next rows cause a write?
     bool is_about_to_write() const { return run_->is_about_to_write(); }
 
     void add(const StepView& view);

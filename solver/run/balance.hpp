@@ -20,14 +20,14 @@ struct Momenta {
     ShipAngles ship_angles = ShipAngles::Zero();  ///< roll, pitch, yaw [rad]
 };
 
-/// How far a step was from balance, as a share of the magnitudes that should cancel [-].
+/// The imbalance of a step, as a share of the magnitudes that should cancel [-].
 struct Imbalance {
     double linear = 0.0;    ///< of the worst floe: change of P against loads and contact impulses
     double angular = 0.0;   ///< of the worst floe: change of L against the moments
-    double together = 0.0;  ///< momentum that all floes gained beyond the loads, against what the
-                            ///< forces reported for the ship and the impulses on held floes say
-    double ship = 0.0;      ///< momentum that a free ship gained beyond its own loads,
-                            ///< against those forces; 0 for a prescribed course
+    double together = 0.0;  ///< momentum that all floes gained beyond the loads, against the forces
+                            ///< reported for the ship and the impulses on held floes
+    double ship = 0.0;      ///< momentum that a free ship gained beyond its own loads, against
+                            ///< those forces; 0 for a prescribed course
     std::int32_t linear_floe = 0, angular_floe = 0;  ///< the worst ones; 0 where there is none
 
     /// The largest of them [-].

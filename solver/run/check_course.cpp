@@ -84,7 +84,7 @@ private:
         const double column = std::floor((p.y() - low_.y()) / cell_);
         const double row = std::floor((p.z() - low_.z()) / cell_);
         double x = foremost(column, row);
-        // a cell without a sphere among others: its neighbours tell
+        // a cell without a sphere among others: its neighbours are used
         for (int k = 0; x == -kNever && k < 9; ++k) {
             const int beside = k % 3 - 1, above = k / 3 - 1;
             x = std::max(x, foremost(column + beside, row + above));

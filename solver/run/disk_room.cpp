@@ -94,7 +94,7 @@ int allocate_ahead(const std::filesystem::path& path, std::uint64_t bytes) {
 
 bool DiskRoom::could_hold(std::uint64_t rows, std::uint64_t text_rows, std::uint64_t end) {
     if (!can_hold_) return true;
-    // The rows' blocks are allocated in their own files; what comes at the end of a run is
+    // The rows' blocks are allocated in their own files; the rows of the end of a run are
     // reserved in a file without a name.
     int reason = allocate_ahead(folder_ / kRows, rows);
     for (const auto& path : csv_files(folder_))
@@ -111,14 +111,14 @@ bool DiskRoom::could_hold(std::uint64_t rows, std::uint64_t text_rows, std::uint
 
 DiskRoom::~DiskRoom() {
     release();
-    // what the files did not need of their blocks
+    // returns the blocks that the files did not need
     std::vector<std::filesystem::path> files = csv_files(folder_);
     files.insert(files.end(), {folder_ / "run.h5", folder_ / kRows});
     for (const std::filesystem::path& path : files)
         if (const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC); file >= 0) {
             struct stat state {};
             if (::fstat(file, &state) == 0 && ::ftruncate(file, state.st_size) != 0)
-                looked_ = false;  // they stay allocated, which harms nobody
+                looked_ = false;  // they stay allocated, without harm
             ::close(file);
         }
 }

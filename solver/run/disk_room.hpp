@@ -10,13 +10,13 @@
 
 namespace ice {
 
-/// Tells a run when to stop for want of room. A file that a full disk cuts while it is written is
-/// past mending; a run that stops with some room left completes its files and writes a checkpoint.
+/// Decides when a run has to stop for want of room. A file that a full disk cuts off cannot be
+/// mended; a run that stops with some room left completes its files and writes a checkpoint.
 ///
 /// Other programs may fill the disk at once, so that room is held where the file system can
 /// (fallocate): for rows within run.h5 and the CSV files, for the rest by a file without a name,
-/// which ends with the program, however that ends. Elsewhere the free space is read, which
-/// knows no quotas. The limit of a single file (ulimit -f) counts, too.
+/// which ends with the program, however that ends. Elsewhere the free space is read, without
+/// quotas. The limit of a single file (ulimit -f) counts, too.
 class DiskRoom {
 public:
     explicit DiskRoom(std::filesystem::path folder) : folder_(std::move(folder)) {}

@@ -105,7 +105,7 @@ void FreeShip::apply_loads(const Case& p, Scene& scene, double time) {
 }
 
 // (M + dt D / 2) dv = dt (F - D v): damping by the mean of the velocities before and after the
-// loads, which neither overshoots nor changes what it damps to second order.
+// loads. It does not overshoot, and its error is of second order.
 void FreeShip::add_damping(const Case& p, Scene& scene) {
     const Bodies& b = scene.bodies;
     const Vec3 translation = of_three(rig_->damping, surge),
