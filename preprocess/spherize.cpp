@@ -255,7 +255,7 @@ int run_spherize(Options& o, const std::string& command_line) {
         throw ice::bad_input("--spacing", "has no meaning for a lattice, whose pitch is 2 R",
                              "leave it out, or use --arrangement conforming");
 
-    // refuse before the long work whatever can be refused
+    // all refusals come before the long work
     const std::string out = o.out.empty() ? ice::mesh_stem(o.mesh) + ".spheres.h5" : o.out;
     check_outputs(o, out);
     ice::SpheresReport report;

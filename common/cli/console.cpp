@@ -77,7 +77,7 @@ void on_interrupt(int signal) {
 }  // namespace
 
 bool stderr_is_terminal() {
-    // A redrawn line is a mess in a log: every sign that nobody watches counts.
+    // A redrawn line is a mess in a log: every sign of a log counts.
     const char* kind = std::getenv("TERM");
     return isatty(STDERR_FILENO) == 1 && std::getenv("CI") == nullptr && kind != nullptr &&
            std::strcmp(kind, "dumb") != 0;

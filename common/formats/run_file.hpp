@@ -23,9 +23,9 @@
 ///     /tracked/floe [K] ids            /tracked/<id> [S,22], columns named in track_columns()
 ///     /region_names, /hull_regions, /xyz, /wxyz, /pose_parts, /track_columns   labels
 ///
-/// Every dimension outside /shapes is labelled by a dimension scale, so that xarray knows it.
+/// Every dimension outside /shapes is labelled by a dimension scale, so that xarray names it.
 /// Times, histories and masses are double; poses, meshes and forces on regions float. Datasets have
-/// `units` and, where the name does not say all, `long_name`; "/" has `average_from` [s].
+/// `units` and, where the name is not enough, `long_name`; "/" has `average_from` [s].
 #pragma once
 
 #include <cstdint>
@@ -77,9 +77,9 @@ public:
     void add_tracked(const std::vector<TrackRow>& rows);
     void add(const RunFrame& frame);
     /// Saves all rows so that a kill at any moment leaves them readable, in files
-    /// checkpoint-rows-*.h5 beside run.h5, and tells how many there are.
+    /// checkpoint-rows-*.h5 beside run.h5, and returns their numbers.
     RunPosition save_rows();
-    /// Writes all rows to run.h5 itself and tells how many there are: for a run that ends here.
+    /// Writes all rows to run.h5 itself, for a run that ends here. @return their numbers
     RunPosition write_rows();
     /// Bytes of the rows that are not in the file yet, uncompressed.
     std::uint64_t waiting_bytes() const;

@@ -38,7 +38,7 @@ std::vector<FormulaValue> evaluate_formulas(const ShipParticulars& ship, const I
                               ship.parallel_length,
                               ship.bow_length};
     const double strength = known_or(options.flexural_strength, ice.flexural_strength);
-    // Formulas know no direction: a ship that backs has the resistance of its speed ahead.
+    // Formulas have no direction: a ship that backs has the resistance of its speed ahead.
     const IceConditions conditions{ice.thickness,
                                    ice.friction_ship_ice,
                                    ice.density,

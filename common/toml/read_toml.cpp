@@ -159,7 +159,7 @@ private:
 
     void walk_repeated(const toml::array& rows, Values& values, std::size_t& groups) {
         // Rows of a repeated table become keys with a number, "floes.0.gap": so every other part of
-        // the program knows one kind of key only.
+        // the program has one kind of key only.
         const std::string& name = schema_.repeated_table;
         for (const toml::node& row : rows) {
             if (groups >= kMostTables) {

@@ -99,7 +99,7 @@ std::optional<Recognised> recognise_tables(const std::filesystem::path& file,
     const FileKind* found = nullptr;
     for (const FileKind& kind : kKinds) {
         if (!shows(kind)) continue;
-        // it has a sign of the wanted kind: a mistake in it is told as such
+        // it has a sign of the wanted kind: a mistake in it is reported as such
         if (kind.title == wanted) return std::nullopt;
         if (found == nullptr) found = &kind;
     }

@@ -145,7 +145,7 @@ double Thrust::at(double speed) const {
 }
 
 // Where a search for the attained speed ends: the thrust is 0 at the open-water speed, and a table
-// says nothing beyond its last row.
+// ends with its last row.
 double Thrust::fastest() const {
     if (!table.empty()) return table.back().first;
     return open_water_speed > 0.0 ? open_water_speed : std::numeric_limits<double>::infinity();

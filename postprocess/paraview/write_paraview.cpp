@@ -221,7 +221,7 @@ private:
             run_file_.add(part.name, frame.time, {hull, part.triangles, part.values});
         std::vector<float> corners;
         for (std::size_t b = 0; b < frame.position.size(); ++b) {
-            // Corners are stored turned and moved, in world axes: ParaView knows no rigid bodies.
+            // Corners are stored turned and moved, in world axes: ParaView has no rigid bodies.
             const std::vector<float> one =
                 posed(mesh_of(b), frame.position[b], frame.orientation[b].toRotationMatrix());
             corners.insert(corners.end(), one.begin(), one.end());

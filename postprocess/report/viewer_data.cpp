@@ -145,7 +145,8 @@ private:
                     low = std::min(low, p[d]);
                     high = std::max(high, p[d]);
                 }
-            // no finer than a thousandth of a floe: nobody sees less, and noise does not compress
+            // no finer than a thousandth of a floe: less is not visible, and noise does not
+            // compress
             const Quantiser axis = make_quantiser(low, high, 1e-3 * floe_size_);
             scale.push_back(axis.step);
             offset.push_back(axis.offset);

@@ -159,7 +159,7 @@ private:
             return text_element(place(base_.mean) + 6.0, top + 14.0, change.label + ": no result",
                                 "start", kSmall);
         const double end = place(change.resistance.mean), middle = top + 0.5 * kBar;
-        // Colour says in which direction; pale says that the difference may be chance.
+        // Colour shows the direction; a pale bar may be chance.
         const bool rises = change.difference.mean >= 0.0;
         std::string out = rectangle(
             place(base_.mean), end, top + 3.0, top + kBar - 3.0,

@@ -211,7 +211,7 @@ std::vector<Curve> make_curves(const Sweep& sweep, const std::vector<Point>& poi
         }
         return label;
     };
-    // full labels tell curves apart, short ones are shown where they suffice
+    // full labels distinguish curves, short ones are shown where they suffice
     std::map<std::string, std::size_t> row_of, count_of;
     std::vector<Curve> curves;
     for (const Point& point : points) {

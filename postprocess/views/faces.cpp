@@ -61,7 +61,7 @@ std::vector<std::int32_t> outline_loop(const TriangleMesh& mesh,
     return loop.size() == next.size() ? loop : std::vector<std::int32_t>{};
 }
 
-// corners on a straight line between their neighbours say nothing
+// corners on a straight line between their neighbours are not needed
 std::vector<Vec3> corners_of(const TriangleMesh& mesh, const std::vector<std::int32_t>& loop) {
     std::vector<Vec3> corners;
     const std::size_t n = loop.size();

@@ -154,7 +154,7 @@ double measure_protrusion(const SurfaceTree& tree, const SphereSet& set, bool ha
     parallel_for(set.surface_count, 512, [&](std::size_t k) {
         if (half && set.centers[k].y() < 0.0) return;
         // a conforming layer's centres are inside by their winding numbers (drop_outside), a
-        // lattice's by their rows', where a foot's normal may say otherwise
+        // lattice's by their rows', where a foot's normal may be another
         beyond[k] = set.radii[k] - tree.closest(set.centers[k]).distance;
     });
     return beyond.empty() ? 0.0 : std::max(0.0, *std::max_element(beyond.begin(), beyond.end()));

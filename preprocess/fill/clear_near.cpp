@@ -123,7 +123,7 @@ struct Piece {
 void split(const Corners& whole, double most, std::vector<Piece>& out) {
     std::vector<Corners> open{whole};
     while (!open.empty()) {
-        // small pieces have tight boxes: fewer points of the lattice are measured in vain
+        // small pieces have tight boxes: fewer points of the lattice are measured without need
         const Corners corner = open.back();
         open.pop_back();
         std::size_t edge = 0;

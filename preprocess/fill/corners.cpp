@@ -42,7 +42,7 @@ double distance_to_next_face(const SurfaceTree& tree, const Vec3& center, const 
 // little.
 constexpr double kSameNormal = 0.9999;
 
-// The spheres that touch several faces: few of a ship's, and the only ones that can know a corner.
+// The spheres that touch several faces: few of a ship's, and the only ones that can have a corner.
 class CreasedSpheres {
 public:
     explicit CreasedSpheres(const SphereSet& set) : set_(set), grid_(set.spacing) {

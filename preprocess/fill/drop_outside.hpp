@@ -8,7 +8,7 @@
 namespace ice {
 
 /// Removes the centres of touching spheres whose winding number is a half or less: they are outside
-/// the solid, whatever the normal of the nearest face says (faces that cross each other, T-shaped
+/// the solid, whatever the normal of the nearest face (faces that cross each other, T-shaped
 /// junctions).
 ///
 /// The open ball of `radius` round a centre contains no surface, so all of it has one winding

@@ -44,7 +44,7 @@ constexpr double kOutside = 0.02;         // beyond a plane: not settled in a co
 // changes the time alone.
 constexpr std::size_t kFewFine = 16;
 // Faces times vertices [-] up to which a mesh is tested for being convex: floes are, hulls are not.
-// A larger value tests more meshes in vain, a smaller one settles starts outside convex solids.
+// A larger value tests more meshes without use, a smaller one settles starts outside convex solids.
 constexpr std::size_t kMostConvexTests = 10000;
 // Height over the largest extent [-] up to which vertices lie in a face's plane. A larger value
 // takes hollow solids for convex ones, a smaller one convex solids for hollow ones by rounding.

@@ -17,7 +17,8 @@ struct LayerOptions {
     double line_step = 0.2;  ///< between the points that edges are followed by [spacings]
     double sharp = 0.94;     ///< cosine of the turn between faces that meet in an edge: 20 degrees
     bool by_ends = false;  ///< follow edges by their ends alone, where these settle: straight ones
-    std::function<void(double)> progress = {};  ///< where given, told the share done now and then
+    std::function<void(double)> progress =
+        {};  ///< where given, called with the share done now and then
 };
 
 /// Centres of spheres that touch the surface from inside, spaced evenly: the conforming layer.

@@ -63,8 +63,8 @@ private:
 
     static constexpr double kFar = std::numeric_limits<double>::infinity();
     // Points of a block, and rings of cubes that are searched before blocks are [-]: they set the
-    // time, not the answers. Larger blocks measure more points in vain, smaller ones are more boxes
-    // to test; more rings visit more empty cubes, fewer test all blocks for nearer points.
+    // time, not the results. Larger blocks measure more points without need, smaller ones are more
+    // boxes to test; more rings visit more empty cubes, fewer test all blocks for nearer points.
     static constexpr std::size_t kBlock = 64;
     static constexpr int kMostRings = 12;
 

@@ -168,7 +168,7 @@ private:
     bool front_along_length() const { return file_.front && file_.front->axis == hull_->length; }
 
     // -1 where the end at the smaller coordinate is clearly the finer one, +1 where the other is,
-    // 0 where the shape does not tell.
+    // 0 where the shape does not show it.
     int finer_end() const {
         const double ends = fineness_ratio(mesh_, *hull_), tips = tip_ratio(mesh_, *hull_);
         if (ends <= kFiner || ends >= 1.0 / kFiner) return ends < 1.0 ? -1 : 1;
@@ -184,7 +184,7 @@ private:
             return;
         }
         const int bow = finer_end();
-        // the breadth of a prism is that of a 2D section and tells nothing of its ends
+        // the breadth of a prism is that of a 2D section and does not show its ends
         note("forward",
              frame_.forward.text() +
                  (bow == 0 && hull_->prism ? ", but which end is the bow cannot be seen" : ""));

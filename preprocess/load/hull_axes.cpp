@@ -53,7 +53,7 @@ std::optional<HullAxes> find_hull_axes(const TriangleMesh& mesh) {
     HullAxes axes;
     size.maxCoeff(&axes.length);
     const int b = (axes.length + 1) % 3, c = (axes.length + 2) % 3;
-    // shorter meshes may be floes or boxes, whose axes nobody can tell
+    // shorter meshes may be floes or boxes, whose axes are unknown
     if (size[axes.length] < 1.5 * std::max(size[b], size[c])) return std::nullopt;
     const double off_b = asymmetry(mesh, b), off_c = asymmetry(mesh, c);
     // one plane of symmetry along the length, but not two: a box or a spindle has no upper side

@@ -29,9 +29,9 @@ struct ImportedMesh {
 /// hands the mesh over (read_in_child()). It opens no file outside the mesh's own folder: a
 /// material library elsewhere is left out, a glTF buffer elsewhere is an error.
 ///
-/// @throws Error (exit code 2) naming the file, when its name tells no format that is read, when
-///         assimp or gunzip() cannot read it, when reading it crashes, takes too long or more
-///         memory than ReadBounds::for_size() grants
+/// @throws Error (exit code 2) naming the file, when its name has the ending of no format that is
+///         read, when assimp or gunzip() cannot read it, when reading it crashes, takes too long or
+///         more memory than ReadBounds::for_size() grants
 ImportedMesh import_scene(const std::filesystem::path& file);
 
 }  // namespace ice

@@ -33,7 +33,7 @@ std::vector<std::string> cap_warnings(const ClosedSurface& closed) {
     std::vector<std::string> out;
     std::vector<CapVerdict> large;
     for (const CapVerdict& cap : closed.caps) {
-        // An open deck is said whatever its size: it is the one cap that a user may not have
+        // An open deck is reported whatever its size: it is the one cap that a user may not have
         // expected.
         if (cap.kind == CapKind::deck)
             out.push_back(fmt::format("the open deck at {} was closed by a cap of {:.3g} m2",

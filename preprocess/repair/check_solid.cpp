@@ -89,7 +89,7 @@ std::vector<Opening> find_openings(const TriangleMesh& mesh) {
 
 std::string describe_mesh(TriangleMesh mesh) {
     const std::size_t triangles = mesh.triangles.size();
-    // Faults are told of the welded mesh: a file of single triangles would have nothing but open
+    // Faults are those of the welded mesh: a file of single triangles would have nothing but open
     // edges.
     const WeldCounts welded = weld(mesh);
     const SolidDiagnosis d = diagnose_solid(mesh);

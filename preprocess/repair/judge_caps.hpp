@@ -18,7 +18,7 @@ enum class CapKind {
     guess,      ///< none of these: refused
 };
 
-/// A cap as a reader of the report wants to know it.
+/// A cap for the report.
 struct CapVerdict {
     CapKind kind = CapKind::small;
     Vec3 at = Vec3::Zero();  ///< its middle [m]

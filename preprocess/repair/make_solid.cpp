@@ -236,7 +236,7 @@ private:
 
     void say_resolved(const TriangleMesh& mesh, const CrossingPairs& pairs) {
         // Parts that overlap are usual in drawings of ships and only noted; a part that crosses
-        // itself in many places is a scan or folded, and the user should know.
+        // itself in many places is a scan or folded: a warning says so.
         const Parts parts = find_parts(mesh);
         std::set<std::int32_t> united;
         std::set<std::size_t> cut, own;
