@@ -61,6 +61,7 @@ std::string metres_per_unit(std::string& text) {
     return {};
 }
 
+// In the order of the help: file, spheres, solid, axes, ice belt, repair, output.
 void declare(CLI::App& app, Options& o) {
     ice::declare_version(app);
     app.add_option("mesh", o.mesh, "Surface mesh: OBJ, STL, PLY, OFF, DAE, glTF, FBX, also .gz")

@@ -54,6 +54,7 @@ int report(const ice::Summary& s, const ice::Options& o, const std::string& fold
     ice::say(ice::describe_rules(s));
     if (const std::string line = ice::formulas_line(s); !line.empty()) ice::say(line);
     if (const std::string line = ice::energy_line(s); !line.empty()) ice::say(line);
+    // a warning of the start is not repeated
     for (const ice::Warning& warning : s.warnings)
         if (std::find(said.begin(), said.end(), warning) == said.end())
             ice::say_warning(ice::with_verdict(warning));

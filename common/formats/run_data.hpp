@@ -36,7 +36,7 @@ struct RunHeader {
     /// In runs in level ice, set where pieces are read: when a floe broke off [s], the load that
     /// broke it off [N]; inf and 0 for floes that did not. Empty in other runs.
     std::vector<double> body_born, body_breaking_load;
-    bool ship_answers = false;  ///< the ship moves by forces: rows have its motion
+    bool ship_is_free = false;  ///< the ship moves by forces: rows have its motion
     /// Places at which the water's flow is known, from the water's surface above the ship's origin
     /// [m], and its velocity there for a ship at 1 m/s [1]. They do not turn with the ship.
     std::vector<Vec3> flow_point, flow_velocity;

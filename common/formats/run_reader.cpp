@@ -189,8 +189,8 @@ private:
 
     // of a free ship; others keep their course
     void read_ship_motion(RunData& run) const {
-        run.header.ship_answers = file().has("/ship/velocity");
-        if (!run.header.ship_answers) return;
+        run.header.ship_is_free = file().has("/ship/velocity");
+        if (!run.header.ship_is_free) return;
         const std::uint64_t n = run.history.size();
         const auto velocity = points("/ship/velocity", {n});
         const auto angles = points("/ship/angles", {n});

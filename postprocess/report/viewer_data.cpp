@@ -99,7 +99,7 @@ private:
                 time.push_back(static_cast<float>(run_.frames[f].time));
                 for (int d = 0; d < 3; ++d)
                     ship.push_back(static_cast<float>(run_.frames[f].ship_position[d]));
-                if (!run_.header.ship_answers) continue;
+                if (!run_.header.ship_is_free) continue;
                 for (const double x : run_.frames[f].ship_orientation.coeffs())  // x y z w
                     turn.push_back(static_cast<float>(x));
             }

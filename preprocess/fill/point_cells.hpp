@@ -122,6 +122,7 @@ void PointCells::visit(const Vec3& p, double range, const Visit& visit) const {
         if (distance <= range) visit(point.index, distance);
     };
     if (!begin_.empty()) return for_each_near(p, range, look_at);
+    // a wide range has more cubes than there are blocks
     if (range > kMostRings * cell_) {
         for (const Block& block : blocks_)
             if (block.box.squaredExteriorDistance(p) <= range * range * (1.0 + 1e-12))

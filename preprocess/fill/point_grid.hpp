@@ -11,7 +11,7 @@
 
 namespace ice {
 
-/// Points hashed into cubes, growing one by one; answers "is one near?".
+/// Points hashed into cubes, growing one by one; tests whether one is near.
 class PointGrid {
 public:
     /// @param cell  edge of a cube [m], about the range of the queries

@@ -194,6 +194,7 @@ private:
         const auto of_sheet = [](const std::string& label) {
             return label.starts_with("level_ice.");
         };
+        // a value that could not be read is reported already
         if (mistakes_.bad_keys.contains(thickness)) return;
         const auto given = values_.find(thickness);
         if (given != values_.end()) {

@@ -199,12 +199,14 @@ void ContactSolver::begin_rest_with_guess(Bodies& bodies, std::vector<Constraint
     velocities_.clear();
     for (const std::int32_t body : contacts_.bodies())
         velocities_.emplace_back(bodies.velocity[body], bodies.angular_velocity[body]);
+    // the guess of the last step enters the rows' motions through the bodies' velocities
     for (const std::int32_t k : active_) {
         const Constraint& c = constraints[k];
         if (c.rest_normal > 0.0)
             apply_impulse(bodies, c, c.rest_normal * c.normal + c.rest_tangent);
     }
     begin_rest(bodies, constraints, dt);
+    // the bodies themselves keep their velocities; end_stage() applies the whole impulse once
     for (std::size_t k = 0; k < velocities_.size(); ++k) {
         const std::int32_t body = contacts_.bodies()[k];
         std::tie(bodies.velocity[body], bodies.angular_velocity[body]) = velocities_[k];
@@ -221,6 +223,9 @@ SolveReport ContactSolver::resolve_rest(Bodies& bodies, std::vector<Constraint>&
     active_.clear();
     is_active_.assign(constraints.size(), 0);
     SolveReport report;
+    // A solution may close contacts that did not take part: they are added and all are solved
+    // again, at most five times. Only the first solution has a guess; later ones start from the
+    // impulses of the one before.
     for (int solution = 0; solution < kRestSolutions; ++solution) {
         if (!enlist(bodies, constraints, law.tolerance, dt)) return report;
         contacts_.build(bodies, constraints, active_);

@@ -241,6 +241,7 @@ void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs,
     }
     out.resize(contacts);
     parallel_for(found_.size(), kSerialPairs, [&](std::size_t n) {
+        // a pair's contacts: its candidates, then the polygon's corners or the deep seats
         const Found& found = found_[n];
         if (found.corners > 0)
             make_polygon_contacts(

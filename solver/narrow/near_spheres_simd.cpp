@@ -37,6 +37,7 @@ HWY_INLINE std::size_t TouchingBoxes(const BoxRows& rows, std::size_t first, con
     const Tag d;
     const IdTag di;
     std::size_t found = 0;
+    // boxes overlap unless one of six faces separates them; lanes are boxes
     for (std::size_t k = first; k < first + kBlock; k += hn::Lanes(d)) {
         Mask near = hn::Le(hn::LoadU(d, rows.low[0].data() + k), hn::Set(d, box.high[0] + grow));
         for (int axis = 0; axis < 3; ++axis) {

@@ -46,7 +46,7 @@ RunHeader make_header(const Case& parameters, const Scene& scene, const std::str
     FlowArrows arrows = flow_arrows(scene);
     header.flow_point = std::move(arrows.point);
     header.flow_velocity = std::move(arrows.velocity);
-    header.ship_answers = parameters.ship.any_free();
+    header.ship_is_free = parameters.ship.any_free();
     header.tracked.assign(parameters.track.begin(), parameters.track.end());
     return header;
 }

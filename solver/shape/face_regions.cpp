@@ -11,7 +11,7 @@ namespace ice {
 namespace {
 
 // Normals of one region this near (cosine [-]; 2.6 degrees) are one face's: curved hulls have many.
-// Larger stores more faces for a sphere, with the same answers; smaller may miss a border.
+// Larger stores more faces for a sphere, with the same results; smaller may miss a border.
 constexpr double kSameRegionNormal = 0.999;
 
 // A face whose normal is nearer by less than this (cosine [-]) lies in the same plane: the nearer

@@ -149,6 +149,8 @@ ShipLoads measure_ship_loads(const Case& p, const Shape& hull, const ShipRig& ri
     ShipLoads out;
     const ShipAxes axes = axes_of(s.angles);
     const Mat3 rotation = orientation_of(s.angles).toRotationMatrix();
+    // a ship that neither heaves, rolls nor pitches keeps its height: the water's force has no
+    // effect
     if (rig.body.floats()) {
         const FloatingForce f =
             floating_force(hull, rig.body, rotation, s.position.z(), p.water_density, p.gravity);
@@ -157,6 +159,7 @@ ShipLoads measure_ship_loads(const Case& p, const Shape& hull, const ShipRig& ri
     add_propulsion(p, rig, s, axes, current, speed_error, out);
     add_tow(p, rig, s, rotation, out);
     add_mooring(p, rig, s, rotation, axes, out);
+    // -w x (I + A') w of (S1)
     if (rig.body.turns()) {
         const Vec3 added(rig.body.added[roll], rig.body.added[pitch], rig.body.added[yaw]);
         const Vec3 spin = rotation.transpose() * s.angular_velocity;
