@@ -219,6 +219,7 @@ int main(int argc, char** argv) {
     CLI::App app("Reports, pictures and checks of icesolve's run folders.", "icepost");
     ice::declare_version(app);
     const ice::PostCommands c = ice::declare_post(app, o);
+    // exactly one subcommand was given: CLI11 has checked it
     const auto run_icepost = [&](const std::string&) {
         if (c.report->parsed()) return report(o);
         if (c.view->parsed()) return view(o);

@@ -57,7 +57,7 @@ void declare_runs(CLI::App& app, PostOptions& o, PostCommands& c) {
 }
 
 void declare_sweeps(CLI::App& app, PostOptions& o, PostCommands& c) {
-    // Folders of many runs; output goes beside the runs unless -o says otherwise.
+    // Folders of many runs; output is beside the runs unless -o says otherwise.
     c.sweep =
         add_folder_command(app, o, "sweep", "write DIR/sweep.html, resistance curves of many runs",
                            "folder of run folders");

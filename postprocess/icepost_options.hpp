@@ -17,7 +17,8 @@ namespace ice {
 struct PostOptions {
     /// Files and folders as given; empty: not given.
     std::filesystem::path run, out, expected, junit, svg, coefficients, thrust, csv_file;
-    /// Each `every`th frame goes to ParaView; frames of the report's playback at most. Counts.
+    /// Each `every`th frame is written for ParaView; frames of the report's playback at most.
+    /// Counts.
     std::size_t every = 1, frames = report::kReportFrames;
     double time = 0.0;                                                    ///< of the view [s]
     double flexural_strength = std::numeric_limits<double>::quiet_NaN();  ///< [Pa]; NaN: the case's

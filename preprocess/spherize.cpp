@@ -61,6 +61,7 @@ std::string metres_per_unit(std::string& text) {
     return {};
 }
 
+// In the order of the help: file, spheres, solid, axes, ice belt, repair, output.
 void declare(CLI::App& app, Options& o) {
     ice::declare_version(app);
     app.add_option("mesh", o.mesh, "Surface mesh: OBJ, STL, PLY, OFF, DAE, glTF, FBX, also .gz")
@@ -255,7 +256,7 @@ int run_spherize(Options& o, const std::string& command_line) {
         throw ice::bad_input("--spacing", "has no meaning for a lattice, whose pitch is 2 R",
                              "leave it out, or use --arrangement conforming");
 
-    // refuse before the long work whatever can be refused
+    // all refusals come before the long work
     const std::string out = o.out.empty() ? ice::mesh_stem(o.mesh) + ".spheres.h5" : o.out;
     check_outputs(o, out);
     ice::SpheresReport report;
@@ -273,7 +274,7 @@ int run_spherize(Options& o, const std::string& command_line) {
     ice::SphereSet set = fill_solid(o, mesh, report);
     ice::find_cut_back(set, report);
 
-    // where the set comes from goes with it
+    // the set's origin is stored with it
     const std::filesystem::path source(o.mesh);
     set.source_mesh = report.source_mesh = source.filename().string();
     set.source_sha256 = ice::file_sha256(source);

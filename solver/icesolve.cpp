@@ -55,6 +55,7 @@ int report(const ice::Summary& s, const ice::Options& o, const std::string& fold
     ice::say(ice::describe_rules(s));
     if (const std::string line = ice::formulas_line(s); !line.empty()) ice::say(line);
     if (const std::string line = ice::energy_line(s); !line.empty()) ice::say(line);
+    // a warning of the start is not repeated
     for (const ice::Warning& warning : s.warnings)
         if (std::find(said.begin(), said.end(), warning) == said.end())
             ice::say_warning(ice::with_verdict(warning));
@@ -106,8 +107,8 @@ ice::Existing may_exist(const ice::Options& o, const std::filesystem::path& fold
     return o.overwrite ? ice::Existing::replace : ice::Existing::refuse;
 }
 
-// A run that goes on in its folder replaces the rows from its checkpoint on. Where the folder holds
-// a longer one, those beyond the new end would be lost.
+// A run that is continued in its folder replaces the rows from its checkpoint on. Where the folder
+// holds a longer one, those beyond the new end would be lost.
 void refuse_to_shorten(const ice::Options& o, const ice::World& world) {
     const std::filesystem::path folder = folder_of_run(o);
     if (o.overwrite || may_exist(o, folder) != ice::Existing::go_on ||
@@ -141,7 +142,7 @@ void say_warnings(const std::vector<ice::Warning>& warnings) {
     for (const ice::Warning& warning : warnings) ice::say_warning(ice::with_verdict(warning));
 }
 
-// Before the run, because a look at the case cannot tell it.
+// Before the run, because the case alone does not show it.
 void say_forecasts(const std::vector<ice::Warning>& warnings) {
     for (const ice::Warning& warning : warnings)
         ice::say_warning(warning.affects_mean
@@ -152,13 +153,14 @@ void say_forecasts(const std::vector<ice::Warning>& warnings) {
 // All that --check does.
 int describe(const ice::Options& o, ice::World& world, const std::vector<ice::Warning>& warnings) {
     say_forecasts(warnings);
-    const std::string ice =
-        world.edge.lives() ? "level ice" : fmt::format("{} floes", world.scene.bodies.size() - 1);
+    const std::string ice = world.edge.has_sheet()
+                                ? "level ice"
+                                : fmt::format("{} floes", world.scene.bodies.size() - 1);
     ice::say(fmt::format("{}: {}, {}\n{}", o.case_file,
                          warnings.empty() ? "good" : "runs, with warnings", ice,
                          ice::describe_case(world)));
     if (!o.picture.empty()) ice::draw_start(world, o.picture);
-    ice::say(ice::describe_cost(world));  // goes some steps, so the picture is drawn before
+    ice::say(ice::describe_cost(world));  // takes some steps, so the picture is drawn before
     if (!o.picture.empty()) ice::say(fmt::format("wrote {}", o.picture));
     return 0;
 }

@@ -36,7 +36,7 @@ void declare_new(CLI::App& app, Options& o) {
             ->needs(fresh);
 }
 
-// Options of messages and checks.
+// Options of messages and checks; --json and --hash-every both write to stdout.
 void declare_messages(CLI::App& app, Options& o) {
     app.add_flag("--allow-overlap", o.allow_overlap,
                  "Run a case whose bodies overlap at the start, with a warning");

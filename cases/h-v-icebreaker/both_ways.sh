@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Computes the runs of this case: cases/h-v-icebreaker/both_ways.sh [RESULTS_DIR]
 #
-# At each thickness the ship is driven by its propellers once (case.cfg), then runs on a prescribed
-# course at speeds around the one that it attains (captive.cfg). Every run goes 190 m of the field's
-# 215 and averages over the last 95 m, the length that the ice takes along the hull. ICESOLVE names
+# At each thickness the propellers drive the ship once (case.cfg). Then it runs on a prescribed
+# course at speeds around the one that it attains (prescribed.cfg). Every run covers 190 m of the
+# field's 215 and averages over the last 95 m, the length of the ice along the hull. ICESOLVE names
 # another program; CORES, how many run at a time.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -26,17 +26,17 @@ export -f run
 cases/prepare.sh cases/h-v-icebreaker
 xargs -P "${CORES:-$(nproc)}" -L 1 bash -c 'run "$@"' run <<'END'
 case 0.7 5.4
-captive 0.7 4.0
-captive 0.7 4.8
-captive 0.7 5.4
-captive 0.7 6.0
+prescribed 0.7 4.0
+prescribed 0.7 4.8
+prescribed 0.7 5.4
+prescribed 0.7 6.0
 case 1.0 4.2
-captive 1.0 2.4
-captive 1.0 3.2
-captive 1.0 4.0
-captive 1.0 4.8
+prescribed 1.0 2.4
+prescribed 1.0 3.2
+prescribed 1.0 4.0
+prescribed 1.0 4.8
 case 1.2 2.4
-captive 1.2 1.6
-captive 1.2 2.4
-captive 1.2 3.2
+prescribed 1.2 1.6
+prescribed 1.2 2.4
+prescribed 1.2 3.2
 END

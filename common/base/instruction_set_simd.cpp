@@ -26,7 +26,7 @@ constexpr std::array<Target, 4> kTargets{
 // that contain nothing else.
 constexpr std::int64_t kScalarBits = HWY_SCALAR | HWY_EMU128;
 
-// Highway's SupportedTargets() also makes the best of them the chosen one: whoever asks must choose
+// Highway's SupportedTargets() also makes the best of them the chosen one: the caller must choose
 // again afterwards.
 std::int64_t supported() { return hwy::SupportedTargets() | kScalarBits; }
 

@@ -21,7 +21,8 @@ FitSpread spread_of_fit(const Eigen::MatrixXd& a, double chi2, bool weighted) {
     const Eigen::Index n = a.cols();
     const auto degrees = static_cast<double>(a.rows() - n);
     const double scatter = degrees > 0.0 ? chi2 / degrees : 0.0;
-    // Weights are believed where the fit is as good as they say, and widened where it is worse.
+    // If the fit is as good as the weights imply, the intervals follow from them; else they are
+    // wider.
     const double scale = weighted ? std::max(1.0, scatter) : scatter;
     // Covariance (a^T a)^-1 times the variance of a point. With known deviations the points follow
     // the normal distribution; with a variance from the misses they follow Student's.

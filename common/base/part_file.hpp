@@ -37,7 +37,7 @@ public:
 private:
     std::filesystem::path final_, part_;
     bool kept_ = false;
-    int slot_ = -1;  // of the names that remove_part_files() knows
+    int slot_ = -1;  // of the names that remove_part_files() removes
 };
 
 /// Removes the files of all PartFiles there are: for a program that ends without unwinding. Takes

@@ -101,7 +101,7 @@ void limit(int resource, rlim_t soft, rlim_t hard) {
 }
 
 #ifndef ICE_SANITIZED
-// Addresses in use [bytes]; 0 where the system does not say.
+// Addresses in use [bytes]; 0 where the system does not report them.
 std::uint64_t address_space() {
     std::uint64_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
@@ -151,7 +151,7 @@ void keep_within(const ReadBounds& bounds) {
 }
 
 std::string failure_text(int status, const ReadBounds& bounds) {
-    // The cause is told by the way the child ended: its own exit code, a limit's signal, another
+    // The way the child ended shows the cause: its own exit code, a limit's signal, another
     // one.
     std::string memory =
         fmt::format("takes more than {:.0f} MB of memory to read", 1e-6 * double(bounds.bytes));
@@ -189,7 +189,7 @@ std::string read_in_child(const std::filesystem::path& file, const ReadBounds& b
     messages.close_end(1);
     // before waitpid: a child with more bytes than the pipe holds would wait for its reader
     std::string message = messages.read(bounds.bytes);
-    // a child that has more to say than its bounds allow meets a closed pipe
+    // a child with more output than its bounds allow finds a closed pipe
     messages.close_end(0);
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -62,7 +62,7 @@ std::string_view trim(std::string_view text) {
 std::optional<Quantity> parse_quantity(std::string_view text, Dimension dimension) {
     text = trim(text);
     // std::from_chars, not strtod: it takes a decimal point in every locale.
-    // from_chars knows no leading plus
+    // from_chars accepts no leading plus
     if (text.starts_with('+')) text.remove_prefix(1);
     double number = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

@@ -64,7 +64,7 @@ void check_stdout() {
 constexpr std::int64_t kOneInterrupt = 500'000'000;
 
 void on_interrupt(int signal) {
-    // A handler interrupts code between a failed call and its look at errno.
+    // A handler interrupts code between a failed call and the test of errno.
     const int before = errno;
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -87,7 +87,7 @@ void on_interrupt(int signal) {
 }  // namespace
 
 bool stderr_is_terminal() {
-    // A redrawn line is a mess in a log: every sign that nobody watches counts.
+    // A redrawn line is a mess in a log: every sign of a log counts.
     const char* kind = std::getenv("TERM");
     return isatty(STDERR_FILENO) == 1 && std::getenv("CI") == nullptr && kind != nullptr &&
            std::strcmp(kind, "dumb") != 0;
@@ -120,7 +120,7 @@ void log_to_file(const std::filesystem::path& path, bool append) {
         auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string(), !append);
         sink->set_pattern("%Y-%m-%d %H:%M:%S  %v");
         spdlog::default_logger()->sinks().push_back(sink);
-        // Each line at once: a log is read while the run goes on, and after it was killed.
+        // Each line at once: a log is read during the run, and after it was killed.
         spdlog::default_logger()->flush_on(spdlog::level::info);
     } catch (const spdlog::spdlog_ex&) {
         throw run_failed(path.string(), "cannot be written",

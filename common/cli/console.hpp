@@ -25,8 +25,8 @@ void log_to_file(const std::filesystem::path& path, bool append = false);
 void say(const std::string& text);          ///< information
 void say_warning(const std::string& text);  ///< something the user should know
 
-/// Writes data to stdout. A reader that has gone (a pager, head) is no failure: the program goes on
-/// and the rest is dropped.
+/// Writes data to stdout. A reader that has closed (a pager, head) is no failure: the program
+/// continues and the rest is dropped.
 /// @throws Error (exit code 1) when it cannot be written for another reason
 void write_data(const std::string& text);
 
@@ -40,7 +40,7 @@ int run_program(const std::string& name, const std::function<int()>& body,
 void catch_interrupts();
 /// True from the first caught signal on.
 bool interrupted();
-/// A caught interrupt goes on to this process as well, one that ends the program kills it.
+/// A caught interrupt is passed on to this process; one that ends the program kills it.
 /// @param program  that this one waits for; 0: none
 void pass_interrupts_to(int program);
 

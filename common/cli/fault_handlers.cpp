@@ -26,7 +26,7 @@ namespace {
 char program_name[64] = "";
 
 void write_text(const char* text) {
-    if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;  // nobody is left to be told
+    if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;  // no reader is left
 }
 
 [[noreturn]] void end(const char* text, ExitCode code) {

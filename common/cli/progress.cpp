@@ -12,8 +12,8 @@ namespace ice {
 
 namespace {
 
-// The remaining time is told once a second and a hundredth of the work are done: the start of a run
-// says little about the rest.
+// The remaining time is shown once a second and a hundredth of the work are done: the start of a
+// run says little about the rest.
 std::string time_left(double fraction, double elapsed) {
     if (elapsed < 1.0 || fraction < 0.01) return "";
     const double left = elapsed * (1.0 - fraction) / fraction;
@@ -34,7 +34,7 @@ std::string bar_line(const std::string& label, double fraction, const std::strin
     return fmt::format("{} [{:#<{}}{:.<{}}] {}", label, "", filled, "", bar - filled, words);
 }
 
-// Not fmt::print, which throws where nobody reads any more.
+// Not fmt::print, which throws if stderr has no reader.
 void show(const std::string& text) {
     std::fputs(text.c_str(), stderr);
     std::fflush(stderr);

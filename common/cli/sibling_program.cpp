@@ -38,7 +38,7 @@ std::optional<int> run_child(const std::string& program, const std::vector<std::
 
 namespace {
 
-// Empty where the system does not tell this program's own file.
+// Empty where the system does not name this program's own file.
 std::string path_of_sibling(const std::string& name) {
     std::error_code error;
     const auto own = std::filesystem::read_symlink("/proc/self/exe", error);

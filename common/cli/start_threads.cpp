@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Threads that wait for work asleep.
+// Threads that sleep while they wait for work.
 //
 // By default GCC's OpenMP lets a thread that waits spin for some hundred thousand turns before it
 // sleeps. A step of the solver has a dozen short parallel loops. Where the cores are not free (a
 // second run, another user) the thread that has work is then kept from its core by spinning ones,
-// and a run took 3 to 6 times as long as with one thread. Asleep, nobody is kept from anything, and
-// waking costs some microseconds a loop (tests/bench/README.md, threads.py).
+// and a run took 3 to 6 times as long as with one thread. A sleeping thread takes no core; waking
+// it costs some microseconds a loop (tests/bench/README.md, threads.py).
 //
 // OpenMP has no function for this: the library reads its environment when it is loaded, before
-// main(). So the program sets the variable and begins anew, once. A value that the user has set
-// wins, and programs that use the project as a library set it themselves (docs/library.md).
+// main(). The program therefore sets the variable and starts itself again, once. A value that the
+// user has set wins, and programs that use the project as a library set it themselves
+// (docs/library.md).
 #include "common/cli/start_threads.hpp"
 
 #include <unistd.h>

@@ -129,7 +129,7 @@ void CheckpointFile::carry(const std::string& name, std::vector<T>& values) {
     constexpr std::uint64_t width = Flat<T>::width;
     Hdf5File& file = *parts_->file;
     if (!reading()) {
-        // HDF5 knows numbers only: vectors and matrices go as rows of them
+        // HDF5 has numbers only: vectors and matrices go as rows of them
         std::vector<Base> flat(width * values.size());
         for (std::size_t k = 0; k < values.size(); ++k)
             Flat<T>::put(values[k], flat.data() + width * k);

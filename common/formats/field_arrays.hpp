@@ -10,7 +10,7 @@ namespace ice::detail {
 constexpr const char* kFieldFormat = "icesolve-field";
 constexpr std::int64_t kFieldVersion = 1;
 
-/// The arrays of all shapes of a field one after the other, as they stand in its file: rows of
+/// The arrays of all shapes of a field one after the other, as in its file: rows of
 /// docs/contract.md, section 7, lengths in m. Three numbers per row of centroid, center, vertex,
 /// normal, crease_normal and triangle, nine of inertia (at 1 kg/m3), one of the others.
 struct FieldArrays {

@@ -102,6 +102,7 @@ void write_floes(Hdf5File& file, const std::vector<FieldFloe>& floes) {
 void write_field(const std::filesystem::path& path, const Field& field) {
     FieldArrays all;
     for (const SphereSet& shape : field.shapes) add_shape(shape, all);
+    // attributes first: a reader knows kind and version before any array
     write_sealed(path, [&](Hdf5File& file) {
         file.write_attribute("/", "format", std::string(detail::kFieldFormat));
         file.write_attribute("/", "format_version", detail::kFieldVersion);

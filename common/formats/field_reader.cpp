@@ -198,6 +198,7 @@ private:
         for (std::size_t i = 0; i < 9; ++i)
             set.solid.inertia(static_cast<int>(i / 3), static_cast<int>(i % 3)) =
                 all_.inertia[9 * k + i];
+        // the solid before its mesh: a wrong one is named at once
         const std::string fault = fault_of(set.solid);
         check(fault.empty(), "/shape", "has " + fault);
         const auto vertices = static_cast<std::size_t>(all_.vertices[k]);

@@ -20,7 +20,7 @@ std::string flow_report_text(const FlowReport& r) {
     json["net_flux"] = r.net_flux;
     json["nodes"] = r.nodes;
     json["spacing_m"] = r.spacing;
-    // absent, not null, without --added-mass: older readers know no such key
+    // absent, not null, without --added-mass: older readers have no such key
     if (r.added_mass)
         json["added_mass"] = {{"matrix", *r.added_mass},
                               {"about_m", r.added_mass_about},

@@ -17,7 +17,7 @@ using detail::to_hsize;
 
 namespace {
 
-// Compressed chunks wait in memory until the dataset is closed, where nobody would hear that the
+// Compressed chunks wait in memory until the dataset is closed, where nothing would report that the
 // disk is full.
 bool reaches_file(hid_t dataset) { return H5Dflush(dataset) >= 0; }
 

@@ -22,14 +22,14 @@ std::string Hdf5File::describe(const std::string& object) const {
 
 namespace {
 
-// Settings of the whole library, made before anything else is asked of it.
+// Settings of the whole library, made before any other call.
 void set_up_library() {
     // HDF5 tidies up when the program ends, and crashes where the disk was full: it tries to write
     // the same data again. All files are closed by then, so that there is nothing to tidy up.
     static const herr_t untidy = H5dont_atexit();
-    // HDF5 keeps up to 21 MB of freed memory for later files, and a long run with checkpoints comes
-    // to hold all of it. Memory that is kept [bytes]: 1 MiB of each kind is enough, 64 KiB of each
-    // size. More is held in vain, less is asked for again.
+    // By default HDF5 keeps up to 21 MB of freed memory for later files; a long run with
+    // checkpoints reaches this bound. Memory that is kept here [bytes]: 1 MiB of each kind, 64 KiB
+    // of each size. More wastes memory; with less HDF5 allocates again.
     constexpr int kOfKind = 1 << 20, kOfSize = 1 << 16;
     static const herr_t limited =
         H5set_free_list_limits(kOfKind, kOfSize, kOfKind, kOfSize, kOfKind, kOfSize);

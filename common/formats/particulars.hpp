@@ -24,9 +24,9 @@ struct ShipParticulars {
     double speed_mean = kUnknown;          ///< over the averaged time [m/s]
     double parallel_length = kUnknown;     ///< of the waterline's full breadth [m]; 3D
     double bow_length = kUnknown;          ///< of the waterline before it [m]; 3D
-    /// Motions and drive of a ship that answers, by their keys in summary.json; else empty.
+    /// Motions and drive of a free ship, by their keys in summary.json; else empty.
     std::vector<std::pair<std::string, double>> motion;
-    std::optional<bool> stuck;  ///< below 0.1 m/s for 10 s on end, of a ship that answers
+    std::optional<bool> stuck;  ///< below 0.1 m/s for 10 s on end, of a free ship
 };
 
 /// Sizes of the floes that may move, and the case's values for all ice.
@@ -54,7 +54,7 @@ std::string release_rule(const IceParticulars& ice);
 /// case's keys: "until-hull-contact, never (loose)".
 std::string release_rule_in_words(const IceParticulars& ice);
 
-/// How far the ship goes.
+/// The ship's travel.
 struct TravelParticulars {
     double distance = kUnknown;          ///< [m]
     double lengths = kUnknown;           ///< distance in lengths of the waterline [-]

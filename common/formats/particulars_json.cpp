@@ -7,7 +7,7 @@ namespace ice {
 
 namespace {
 
-// A key that is missing or null leaves the default, which says "not known": files of older programs
+// A key that is missing or null leaves the default, "not known": files of older programs
 // have fewer keys, and NaN is null in JSON.
 template <class T>
 void take(const Json& json, const char* key, T& value) {

@@ -53,7 +53,7 @@ struct RunWriter::Buffers {
         for (Column<double>* column : {&time, &contact, &friction, &total, &moment, &pose,
                                        &contacts, &moving, &overlap, &energy})
             work(*column);
-        if (answers)
+        if (ship_is_free)
             for (Column<double>* column : {&ship_velocity, &ship_angles, &thrust, &tow})
                 work(*column);
         work(region_contact);
@@ -64,7 +64,7 @@ struct RunWriter::Buffers {
     void for_frames(const Work& work) {
         work(frame_time);
         work(ship_position);
-        if (answers) work(ship_orientation);
+        if (ship_is_free) work(ship_orientation);
         for (Column<float>* column : {&position, &orientation, &velocity, &spin, &floe_force})
             work(*column);
         work(state);
@@ -92,7 +92,7 @@ struct RunWriter::Buffers {
     // history: time, forces and moment [S,3], pose [S,7], scalars, then one table per tracked floe
     Column<double> time, contact, friction, total, moment, pose;
     Column<double> contacts, moving, overlap, energy;
-    bool answers = false;  // the ship: it has a motion of its own
+    bool ship_is_free = false;  // the ship: it has a motion of its own
     Column<double> ship_velocity, ship_angles, thrust, tow;
     Column<float> region_contact, region_friction;  // [S,R,3]
     std::size_t regions = 0;                        // of the hull

@@ -12,7 +12,7 @@
 
 namespace ice {
 
-/// A body's form, shared by all floes made from one sphere file.
+/// A body's shape, shared by all floes made from one sphere file.
 struct RunShape {
     TriangleMesh mesh;  ///< body axes [m]; floes: about the centre of mass, hull: ship frame
     std::vector<Vec3> centers;  ///< [N] contact spheres, same axes [m]
@@ -36,7 +36,7 @@ struct RunHeader {
     /// In runs in level ice, set where pieces are read: when a floe broke off [s], the load that
     /// broke it off [N]; inf and 0 for floes that did not. Empty in other runs.
     std::vector<double> body_born, body_breaking_load;
-    bool ship_answers = false;  ///< the ship moves by forces: rows have its motion
+    bool ship_is_free = false;  ///< the ship moves by forces: rows have its motion
     /// Places at which the water's flow is known, from the water's surface above the ship's origin
     /// [m], and its velocity there for a ship at 1 m/s [1]. They do not turn with the ship.
     std::vector<Vec3> flow_point, flow_velocity;
@@ -55,7 +55,7 @@ struct HistoryRow {
     double kinetic_energy = 0.0;         ///< of the floes [J] (2D: J per metre)
     double breaking_x = 0.0;  ///< force along x of ice held until it bends [N]; not in run.h5
 
-    // of a ship that answers, at the end of the row; forces are means
+    // of a free ship, at the end of the row; forces are means
     Eigen::Quaterniond ship_orientation = Eigen::Quaterniond::Identity();  ///< ship to world
     Vec3 ship_angles = Vec3::Zero();    ///< roll, pitch, yaw [rad]
     Vec3 ship_velocity = Vec3::Zero();  ///< of its centre of gravity [m/s]

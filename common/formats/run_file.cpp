@@ -124,8 +124,8 @@ void RunWriter::Buffers::create_history(const RunHeader& header) {
     create(moving, "/ship/moving_floes", {}, "1", {"/time"});
     create(overlap, "/ship/max_overlap", {}, "m", {"/time"});
     create(energy, "/ship/kinetic_energy", {}, header.dimension == 2 ? "J/m" : "J", {"/time"});
-    if (header.ship_answers) {
-        answers = true;
+    if (header.ship_is_free) {
+        ship_is_free = true;
         create(ship_velocity, "/ship/velocity", {3}, "m/s", {"/time", "/xyz"});
         create(ship_angles, "/ship/angles", {3}, "rad", {"/time", "/xyz"});
         create(thrust, "/ship/thrust", {}, force, {"/time"});
@@ -183,9 +183,9 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
     create(frame_time, "frame_time", {}, "s", {});
     file.make_scale("/frames/frame_time");
     create(ship_position, "ship_position", {3}, "m", {"/xyz"});
-    if (header.ship_answers) {
+    if (header.ship_is_free) {
         create(ship_orientation, "ship_orientation", {4}, "1", {"/wxyz"});
-        // only of a ship that answers; another stays upright on its course
+        // only of a free ship; another stays upright on its course
         file.write_attribute("/frames/ship_orientation", "order", "w,x,y,z ship to world");
     }
     create(position, "position", {n, 3}, "m", {"/frames/body", "/xyz"});
@@ -279,7 +279,7 @@ void RunWriter::add(const HistoryRow& row, const std::vector<RegionForce>& regio
     b.moving.add_value(row.moving_floes);
     b.overlap.add_value(row.max_overlap);
     b.energy.add_value(row.kinetic_energy);
-    if (b.answers) {
+    if (b.ship_is_free) {
         b.ship_velocity.add(row.ship_velocity);
         b.ship_angles.add(row.ship_angles);
         b.thrust.add_value(row.thrust);
@@ -312,7 +312,7 @@ void RunWriter::add(const RunFrame& frame) {
     Buffers& b = *buffers_;
     b.frame_time.add_value(frame.time);
     b.ship_position.add(frame.ship_position);
-    if (b.answers) b.ship_orientation.add(wxyz(frame.ship_orientation));
+    if (b.ship_is_free) b.ship_orientation.add(wxyz(frame.ship_orientation));
     b.position.add_all(frame.position);
     b.velocity.add_all(frame.velocity);
     b.spin.add_all(frame.angular_velocity);

@@ -11,7 +11,7 @@
 ///     /frames/frame_time [F] s         /frames/body [B]  (ids, from 1)
 ///     /frames/position [F,B,3]         /frames/orientation [F,B,4] w x y z, body to world
 ///     /frames/velocity, angular_velocity, contact_force [F,B,3]   /frames/state [F,B]
-///     of a ship that answers: /ship/velocity, angles, tow_force [S,3], thrust [S]
+///     of a free ship: /ship/velocity, angles, tow_force [S,3], thrust [S]
 ///                             /frames/ship_orientation [F,4] w x y z, ship to world
 ///     /frames/ship_position [F,3]      /frames/body_shape, body_group, mass [B], inertia [B,3]
 ///     /contacts/contact_time [C] s     hull contacts, forces as means since the frame before
@@ -23,9 +23,9 @@
 ///     /tracked/floe [K] ids            /tracked/<id> [S,22], columns named in track_columns()
 ///     /region_names, /hull_regions, /xyz, /wxyz, /pose_parts, /track_columns   labels
 ///
-/// Every dimension outside /shapes is labelled by a dimension scale, so that xarray knows it.
+/// Every dimension outside /shapes is labelled by a dimension scale, so that xarray names it.
 /// Times, histories and masses are double; poses, meshes and forces on regions float. Datasets have
-/// `units` and, where the name does not say all, `long_name`; "/" has `average_from` [s].
+/// `units` and, where the name is not enough, `long_name`; "/" has `average_from` [s].
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ inline constexpr std::uint64_t kFrameFloeBytes = 16 * sizeof(float) + sizeof(Flo
 /// it, and so the bytes of a file with many floes.
 inline constexpr std::uint64_t kFrameFloeBound = 17 * sizeof(float);
 
-/// Where a run file stands, for a run that is continued from it.
+/// Length of a run file's datasets, for a run that is continued from it.
 struct RunPosition {
     std::int64_t samples = 0, frames = 0, contacts = 0;  ///< rows on disk
     std::vector<Eigen::Quaterniond> last_orientation;    ///< of the last frame, signs as stored
@@ -77,9 +77,9 @@ public:
     void add_tracked(const std::vector<TrackRow>& rows);
     void add(const RunFrame& frame);
     /// Saves all rows so that a kill at any moment leaves them readable, in files
-    /// checkpoint-rows-*.h5 beside run.h5, and tells how many there are.
+    /// checkpoint-rows-*.h5 beside run.h5, and returns their numbers.
     RunPosition save_rows();
-    /// Writes all rows to run.h5 itself and tells how many there are: for a run that ends here.
+    /// Writes all rows to run.h5 itself, for a run that ends here. @return their numbers
     RunPosition write_rows();
     /// Bytes of the rows that are not in the file yet, uncompressed.
     std::uint64_t waiting_bytes() const;

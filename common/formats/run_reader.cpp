@@ -73,7 +73,7 @@ private:
     }
 
     void read_vertices(std::vector<RunShape>& shapes) const {
-        // All shapes' vertices stand in one array [rows x 3]; shape s has rows offset[s] to
+        // All shapes' vertices are in one array [rows x 3]; shape s has rows offset[s] to
         // offset[s + 1].
         const std::uint64_t rows = rows_of("/shapes/vertices");
         const auto all = points("/shapes/vertices", {rows});
@@ -187,10 +187,10 @@ private:
         read_ship_motion(run);
     }
 
-    // of a ship that answers; others keep their course
+    // of a free ship; others keep their course
     void read_ship_motion(RunData& run) const {
-        run.header.ship_answers = file().has("/ship/velocity");
-        if (!run.header.ship_answers) return;
+        run.header.ship_is_free = file().has("/ship/velocity");
+        if (!run.header.ship_is_free) return;
         const std::uint64_t n = run.history.size();
         const auto velocity = points("/ship/velocity", {n});
         const auto angles = points("/ship/angles", {n});
@@ -265,7 +265,7 @@ private:
         const auto spin = points("/frames/angular_velocity", {frames, n});
         const auto force = points("/frames/contact_force", {frames, n});
         const auto state = read_as<std::uint8_t>("/frames/state", {frames, n});
-        std::vector<double> attitude;  // of a ship that answers
+        std::vector<double> attitude;  // of a free ship
         if (file().has("/frames/ship_orientation"))
             attitude = read_as<double>("/frames/ship_orientation", {frames, 4});
         run.frames.resize(frames);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The seal of a file: the hash of its bytes, as 16 hexadecimal digits behind its end, where HDF5
-/// does not look.
+/// The seal of a file: the hash of its bytes, as 16 hexadecimal digits behind its end, which HDF5
+/// does not read.
 #pragma once
 
 #include <filesystem>

@@ -181,7 +181,7 @@ private:
         read_creases(set);
     }
 
-    // The first S rows; those of the interior say nothing.
+    // The first S rows; those of the interior have no information.
     void read_surface(SphereSet& set) const {
         const std::size_t n = set.centers.size(), s = set.surface_count;
         set.normals = points("/normal");
@@ -303,7 +303,7 @@ void write_spheres_arrays(Hdf5File& file, const SphereSet& set) {
 }
 
 void write_all(Hdf5File& file, const SphereSet& set, SpheresReport& certificate) {
-    // Attributes first: a reader can tell kind, version and origin without an array.
+    // Attributes first: a reader gets kind, version and origin without an array.
     file.write_attribute("/", "format", std::string(kSpheresFormat));
     file.write_attribute("/", "format_version", kSpheresVersion);
     file.write_attribute("/", "dimension", std::int64_t{set.dimension});

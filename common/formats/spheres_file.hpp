@@ -22,7 +22,7 @@ void write_spheres(const std::filesystem::path& path, const SphereSet& set,
 ///
 /// Beside the contract's datasets: `/normal_spread` f32 [N], SphereSet::normal_spread [rad], 0
 /// inside; `/crease/sphere` i32 [M] and `/crease/normal` f32 [M,3], SphereSet::creases. Rows of the
-/// interior that say nothing are not stored: they read as the datasets' fill values.
+/// interior without information are not stored: they read as the datasets' fill values.
 ///
 /// A file without `normal_spread` (format version 1 without the extra dataset) reads as spread 0.
 /// @throws Error (exit code 2) naming the file and the dataset.

@@ -102,7 +102,7 @@ std::string spheres_report_text(const SpheresReport& r) {
                                     {"from_m", cut.from},
                                     {"to_m", cut.to},
                                     {"text", cut_back_text(cut)}});
-    // null, not left out: a reader tells "not measured" from an older program.
+    // null, not left out: "not measured" differs from the file of an older program.
     json["source"] = r.source.known ? source_json(r.source) : Json();
     json["ice_belt"] = r.belt ? belt_json(r) : Json();
     json["repairs"] = Json::array();

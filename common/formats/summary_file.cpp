@@ -69,7 +69,7 @@ Json warnings_json(const std::vector<Warning>& warnings) {
 // Ending of a key whose value is per metre of breadth.
 constexpr std::string_view kPerMetre = "_per_m";
 
-// In 2D forces, impulses and energies are per metre of breadth, and say so in a twin of each key.
+// In 2D forces, impulses and energies are per metre of breadth; a twin of each key names the unit.
 void add_names_per_metre(Json& json) {
     if (!json.is_structured()) return;
     // Collected first: an object must not grow while it is walked through.

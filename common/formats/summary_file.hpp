@@ -23,10 +23,11 @@ struct ForceStatistics {
     double std = 0.0, max = 0.0;  ///< max: of the magnitude, with the sign it had
     double ci95 = 0.0;            ///< half width of the 95 % interval of the mean; NaN: too short
 
-    /// Integrated autocorrelation time [s]: the averaged time holds as many independent samples as
-    /// it is longer than this. NaN where it is too short to tell.
+    /// Integrated autocorrelation time [s]: number of independent samples = averaged time /
+    /// correlation time. NaN if the averaged time is too short.
     double correlation_time = std::numeric_limits<double>::quiet_NaN();
-    double effective_samples = std::numeric_limits<double>::quiet_NaN();  ///< their number [-]
+    double effective_samples =
+        std::numeric_limits<double>::quiet_NaN();             ///< number of independent samples [-]
     double trend = std::numeric_limits<double>::quiet_NaN();  ///< change over the averaged time of
                                                               ///< the straight line through it [N]
     /// Resistance of a case with floes held until they bend: the force before they break off, and

@@ -30,15 +30,15 @@ bool is_level_ice(const IceParticulars& ice) {
 
 std::vector<FormulaValue> evaluate_formulas(const ShipParticulars& ship, const IceParticulars& ice,
                                             double speed, const FormulaOptions& options) {
-    const HullForm hull{ship.length,
-                        ship.breadth,
-                        ship.draught,
-                        ship.stem_angle_deg * kDegree,
-                        ship.entrance_angle_deg * kDegree,
-                        ship.parallel_length,
-                        ship.bow_length};
+    const HullDimensions hull{ship.length,
+                              ship.breadth,
+                              ship.draught,
+                              ship.stem_angle_deg * kDegree,
+                              ship.entrance_angle_deg * kDegree,
+                              ship.parallel_length,
+                              ship.bow_length};
     const double strength = known_or(options.flexural_strength, ice.flexural_strength);
-    // Formulas know no direction: a ship that backs has the resistance of its speed ahead.
+    // Formulas have no direction: a ship that backs has the resistance of its speed ahead.
     const IceConditions conditions{ice.thickness,
                                    ice.friction_ship_ice,
                                    ice.density,

@@ -7,7 +7,7 @@
 namespace ice {
 
 /// Hull dimensions at calm water.
-struct HullForm {
+struct HullDimensions {
     double length = 0.0;          ///< L, at the waterline [m]
     double breadth = 0.0;         ///< B, at the waterline [m]
     double draught = 0.0;         ///< T [m]

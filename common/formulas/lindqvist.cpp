@@ -5,7 +5,7 @@
 
 namespace ice {
 
-double lindqvist_submersion(const HullForm& hull, const IceConditions& ice) {
+double lindqvist_submersion(const HullDimensions& hull, const IceConditions& ice) {
     const double sin_phi = std::sin(hull.stem_angle), cos_phi = std::cos(hull.stem_angle);
     const double tan_phi = std::tan(hull.stem_angle), tan_alpha = std::tan(hull.entrance_angle);
     const double psi = std::atan(tan_phi / std::sin(hull.entrance_angle));
@@ -20,7 +20,7 @@ double lindqvist_submersion(const HullForm& hull, const IceConditions& ice) {
     return at_rest * (1.0 + 9.4 * ice.speed / std::sqrt(ice.gravity * hull.length));
 }
 
-LindqvistParts lindqvist_resistance(const HullForm& hull, const IceConditions& ice) {
+LindqvistParts lindqvist_resistance(const HullDimensions& hull, const IceConditions& ice) {
     // (F1), term by term
     const double sin_phi = std::sin(hull.stem_angle), cos_phi = std::cos(hull.stem_angle);
     const double tan_phi = std::tan(hull.stem_angle), sin_alpha = std::sin(hull.entrance_angle);

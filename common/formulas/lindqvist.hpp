@@ -13,7 +13,7 @@ namespace ice {
 ///     R_s  = R_s0 (1 + 9.4 V / sqrt(g L))
 ///
 /// NaN for a hull whose angles are.
-double lindqvist_submersion(const HullForm& hull, const IceConditions& ice);
+double lindqvist_submersion(const HullDimensions& hull, const IceConditions& ice);
 
 /// The parts of the resistance in level ice [N], each with its speed factor.
 struct LindqvistParts {
@@ -32,6 +32,6 @@ struct LindqvistParts {
 /// publication prints 37/64. Six values that others computed for one hull (E 9 GPa assumed) are met
 /// within 14 %. NaN where an input is, and for a bow so steep and rough that it cannot crush ice
 /// (mu sin phi >= cos psi).
-LindqvistParts lindqvist_resistance(const HullForm& hull, const IceConditions& ice);
+LindqvistParts lindqvist_resistance(const HullDimensions& hull, const IceConditions& ice);
 
 }  // namespace ice

@@ -6,7 +6,7 @@
 
 namespace ice {
 
-double riska_resistance(const HullForm& hull, const IceConditions& ice) {
+double riska_resistance(const HullDimensions& hull, const IceConditions& ice) {
     // (F2): C_1 is at_rest, C_2 per_speed [kN, kN s/m]
     const double phi = hull.stem_angle * 180.0 / std::numbers::pi;
     const double b = hull.breadth, t = hull.draught, h = ice.thickness, bow = hull.bow_length;

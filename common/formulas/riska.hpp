@@ -18,6 +18,6 @@ namespace ice {
 /// For ships of the Baltic with a flexural strength of some 500 kPa, on which it does not depend.
 /// Form and growth with h and V agree with values that others computed for one ship; the single
 /// coefficients are recalled and tested by nothing. NaN where an input is unknown.
-double riska_resistance(const HullForm& hull, const IceConditions& ice);
+double riska_resistance(const HullDimensions& hull, const IceConditions& ice);
 
 }  // namespace ice

@@ -5,7 +5,7 @@
 
 namespace ice {
 
-SpencerScales spencer_scales(const HullForm& hull, const IceConditions& ice) {
+SpencerScales spencer_scales(const HullDimensions& hull, const IceConditions& ice) {
     // The dimensionless numbers divide speeds: Fr_h by that of a wave in water as deep as the ice,
     // S by that of the inertia against the strength. NaN strength gives NaN S alone.
     const double h = ice.thickness, v = ice.speed, b = hull.breadth;
@@ -14,7 +14,7 @@ SpencerScales spencer_scales(const HullForm& hull, const IceConditions& ice) {
             v * std::sqrt(ice.ice_density * b / (ice.flexural_strength * h))};
 }
 
-SpencerParts spencer_resistance(const HullForm& hull, const IceConditions& ice,
+SpencerParts spencer_resistance(const HullDimensions& hull, const IceConditions& ice,
                                 const SpencerCoefficients& c) {
     // (F3), term by term
     const SpencerScales s = spencer_scales(hull, ice);

@@ -37,7 +37,7 @@ struct SpencerParts {
 ///     R_BR = C_BR S^-b rho_i B h V^2,     S = V sqrt(rho_i B / (sigma_f h))
 ///
 /// At V = 0 the last two are 0 (a, b < 2), as their limits are. Breaking is NaN without strength.
-SpencerParts spencer_resistance(const HullForm& hull, const IceConditions& ice,
+SpencerParts spencer_resistance(const HullDimensions& hull, const IceConditions& ice,
                                 const SpencerCoefficients& coefficients = {});
 
 /// The variables of the formula, by which a fit finds its coefficients.
@@ -46,6 +46,6 @@ struct SpencerScales {
     /// rho_i B h V^2 [N], Fr_h [-], S [-]; S is NaN without strength
     double inertia = 0.0, froude = 0.0, strength = 0.0;
 };
-SpencerScales spencer_scales(const HullForm& hull, const IceConditions& ice);
+SpencerScales spencer_scales(const HullDimensions& hull, const IceConditions& ice);
 
 }  // namespace ice

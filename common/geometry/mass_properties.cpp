@@ -57,7 +57,7 @@ std::string fault_of(const MassProperties& solid) {
     if (!solid.inertia.allFinite()) return "an inertia that is no number";
     const Mat3& inertia = solid.inertia;
     // Each test needs the one before it: the eigenvalues of a matrix that is not symmetric, or has
-    // no number in it, say nothing.
+    // no number in it, have no effect.
     const double size = inertia.cwiseAbs().maxCoeff();
     if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > kRounding * size)
         return "an inertia that is not symmetric";

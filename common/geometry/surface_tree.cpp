@@ -13,7 +13,7 @@ namespace ice {
 namespace {
 
 // Triangles of a leaf [-]. A node has four lanes for boxes, and a box around one triangle costs as
-// much as the plane test of that triangle. The answers do not depend on it, only the time.
+// much as the plane test of that triangle. The results do not depend on it, only the time.
 constexpr std::int32_t kLeafTriangles = 4;
 
 double corner_angle(const Vec3& at, const Vec3& b, const Vec3& c) {

@@ -38,7 +38,7 @@ public:
     void within(const Vec3& p, double range, std::vector<Foot>& out) const;
 
     /// True when no point of the surface is nearer than `range` [m] to p. Much cheaper than
-    /// closest() where the range is small, because it never looks farther.
+    /// closest() where the range is small, because it searches no farther.
     bool is_clear(const Vec3& p, double range) const;
 
     const TriangleMesh& mesh() const { return mesh_; }

@@ -106,7 +106,7 @@ std::string default_text(const Schema& schema) {
         }
         const auto leaf = key.path.substr(key.path.rfind('.') + 1);
         const bool has_default = !key.default_text.empty() && key.default_text != "-";
-        // keys without a default stand in comments, for the user to fill in or leave
+        // keys without a default are comments, for the user to fill in or leave
         out += fmt::format("{}{} = {}  # {} ({})\n", has_default ? "" : "# ", leaf,
                            has_default ? key.default_text : "...", key.doc, kind_text(key));
     }

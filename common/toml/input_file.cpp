@@ -28,7 +28,7 @@ std::string read_input_text(const std::filesystem::path& file, const std::string
     std::ifstream in(file, std::ios::binary);
     if (!in) throw bad_input(file.string(), "cannot be read", "check its permissions");
     std::string text{std::istreambuf_iterator<char>(in), {}};
-    // a mesh or an HDF5 file would give a syntax error that helps nobody
+    // a mesh or an HDF5 file would give a syntax error without use
     if (const auto other = recognise_file(file, text))
         throw bad_input(file.string(), fmt::format("is {}, not a {}", other->what, what),
                         other->remedy);

@@ -102,7 +102,7 @@ Json value_schema(const Key& key) {
     return Json::object();
 }
 
-// The default as JSON; null where JSON cannot say it (inf).
+// The default as JSON; null where JSON has no such value (inf).
 Json default_json(const Key& key, const Schema& schema) {
     const Value value = default_value(key, schema);
     if (key.kind == Kind::boolean) return std::get<std::int64_t>(value) != 0;
@@ -126,7 +126,7 @@ Json key_schema(const Key& key, const Schema& schema) {
     if (key.default_text.empty()) {
         text += " Required.";
     } else if (key.default_text != "-") {
-        // JSON has no infinity: the default is told in words
+        // JSON has no infinity: the default is in words
         const Json value = default_json(key, schema);
         if (value.is_number_float() && !std::isfinite(value.get<double>()))
             text += fmt::format(" Default {}.", key.default_text);
@@ -174,7 +174,7 @@ std::string json_schema(const Schema& schema) {
         for (const std::string& path : choice)
             entry["oneOf"].push_back({{"required", {path.substr(path.rfind('.') + 1)}}});
     }
-    // [[floes]] may be missing where [level_ice] stands in its place
+    // [[floes]] may be missing where [level_ice] replaces it
     if (!schema.in_its_place.empty()) {
         for (const std::string& table : {schema.repeated_table, schema.in_its_place})
             root["anyOf"].push_back({{"required", {table}}});

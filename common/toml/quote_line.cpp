@@ -57,7 +57,7 @@ std::string_view behind_number(std::string_view text) {
 std::vector<std::string> printable_characters(std::string_view text) {
     std::vector<std::string> out;
     while (!text.empty()) {
-        // Whole characters, not bytes: carets stand below them, and a terminal shows no half of
+        // Whole characters, not bytes: carets mark them from below, and a terminal shows no half of
         // one. Control characters could write over the message.
         const std::size_t length = sequence_length(text);
         const auto c = static_cast<unsigned char>(text.front());

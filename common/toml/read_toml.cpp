@@ -164,7 +164,7 @@ private:
 
     void walk_repeated(const toml::array& rows, Values& values, std::size_t& groups) {
         // Rows of a repeated table become keys with a number, "floes.0.gap": so every other part of
-        // the program knows one kind of key only.
+        // the program has one kind of key only.
         const std::string& name = schema_.repeated_table;
         for (const toml::node& row : rows) {
             if (groups >= kMostTables) {
@@ -212,7 +212,7 @@ private:
                      name.str().size());
             return;
         }
-        // where the key stands, for complaints that come after reading
+        // the place of the key, for complaints that come after reading
         mistakes_.places[label] = complaints_.place(name.source());
         const auto others = schema_.elsewhere.find(path);
         const std::string elsewhere = others == schema_.elsewhere.end() ? "" : others->second;
@@ -272,7 +272,7 @@ Values read_override(const std::string& text, const Schema& schema, std::size_t 
 
 Value default_value(const Key& key, const Schema& schema) {
     ICE_ASSERT(key.default_text != "-" && !key.default_text.empty());
-    // the default goes the same way as a given value
+    // the default is read as a given value is
     Mistakes mistakes;
     std::size_t groups = 0;
     const std::string line = fmt::format("{} = {}", key.path, key.default_text);

@@ -77,7 +77,7 @@ private:
         if (const auto text = node.value<std::string_view>(); text && node.is_string()) {
             const auto quantity = parse_quantity(*text, dimension);
             if (!quantity) {
-                // the message lists the units that the key may have, and knows a usual slip
+                // the message lists the units that the key may have, and names a usual slip
                 const std::string units = unit_names(dimension);
                 complain(node.source(),
                          fmt::format(

@@ -75,7 +75,7 @@ std::string lower_extension(const std::filesystem::path& file) {
 }  // namespace
 
 std::optional<Recognised> recognise_file(const std::filesystem::path& file, std::string_view text) {
-    // the first bytes of every HDF5 file; the format's name stands among the attributes
+    // the first bytes of every HDF5 file; the format's name is an attribute
     if (text.starts_with("\x89HDF\r\n\x1a\n"))
         // the last entry has no name, so that it fits any other HDF5 file
         for (const Format& format : kFormats)
@@ -113,7 +113,7 @@ std::optional<Recognised> recognise_tables(const std::filesystem::path& file,
     const FileKind* found = nullptr;
     for (const FileKind& kind : kKinds) {
         if (!shows(kind)) continue;
-        // it has a sign of the wanted kind: a mistake in it is told as such
+        // it has a sign of the wanted kind: a mistake in it is reported as such
         if (kind.title == wanted) return std::nullopt;
         if (found == nullptr) found = &kind;
     }

@@ -23,7 +23,7 @@ std::vector<std::string> Schema::tables() const {
         const auto dot = key.path.rfind('.');
         if (dot == std::string_view::npos) continue;
         const std::string table(key.path.substr(0, dot));
-        // keys of a table stand together
+        // keys of a table are adjacent
         if (names.empty() || names.back() != table) names.push_back(table);
     }
     return names;

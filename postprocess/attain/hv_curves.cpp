@@ -22,7 +22,7 @@ using sweep::Sweep;
 // A free ship slower than this is held by the ice [m/s]: 60 m in ten minutes. With a larger bound a
 // ship that creeps through would count as stuck.
 constexpr double kStuckSpeed = 0.1;
-constexpr const char* kFreedom = "ship.free";  // tells free ships from others, which are apart
+constexpr const char* kFreedom = "ship.free";  // separates free ships from others
 // Steps of a formula's curve over the thicknesses: it is smooth, and 24 steps show no corners. Each
 // costs a search for a root.
 constexpr int kFormulaSteps = 24;
@@ -137,8 +137,8 @@ private:
                 by_thickness[rounded(row.thickness)].push_back(row);
                 continue;
             }
-            // a run of a free ship attains its speed, runs on a fixed course give a resistance to
-            // be fitted
+            // a run of a free ship attains its speed, runs on a prescribed course give a resistance
+            // to be fitted
             const bool stuck = speed->mean < kStuckSpeed;
             free.points.push_back(
                 {row.thickness,
@@ -183,7 +183,8 @@ private:
 
     void add_course(const std::string& label, const Thrust& thrust,
                     const std::map<double, ResistanceFit>& fits) {
-        HvCurve curve{Source::fixed_course, label.empty() ? "computed" : label, thrust.name, {}};
+        HvCurve curve{
+            Source::prescribed_course, label.empty() ? "computed" : label, thrust.name, {}};
         // One point for each thickness: the map has them in rising order.
         for (const auto& [thickness, fit] : fits)
             curve.points.push_back({thickness, attained_speed(fit, thrust)});
@@ -218,7 +219,7 @@ private:
                     if (f.name == formula.name && f.part == formula.part) return f.value;
                 return std::nan("");
             };
-            // a formula without a number at rest cannot tell a ship that is stuck
+            // a formula without a number at rest does not show whether a ship is stuck
             if (std::isnan(value(low->thickness, 0.0))) continue;
             HvCurve curve{
                 Source::formula,

@@ -13,9 +13,9 @@ namespace ice::attain {
 
 /// Basis of a curve of attained speeds.
 enum class Source {
-    fixed_course,  ///< resistance at given speeds, met by a thrust
-    free_ship,     ///< ships that were free in surge
-    formula        ///< an empirical formula, met by a thrust
+    prescribed_course,  ///< resistance at given speeds, met by a thrust
+    free_ship,          ///< ships that were free in surge
+    formula             ///< an empirical formula, met by a thrust
 };
 
 /// One attained speed.
@@ -26,7 +26,7 @@ struct HvPoint {
 
 /// Attained speeds over the thickness from one source.
 struct HvCurve {
-    Source source = Source::fixed_course;
+    Source source = Source::prescribed_course;
     std::string name;             ///< thrust, formula, values of other axes
     std::string thrust;           ///< its name; "" for free ships, whose cases have it
     std::vector<HvPoint> points;  ///< by thickness, rising; never empty

@@ -139,13 +139,13 @@ double Thrust::at(double speed) const {
         return table.back().second;
     }
     if (open_water_speed == 0.0) return bollard_pull;
-    // (S2) of docs/method.md, section 14
+    // (S2) of docs/method.md, section 13
     const double share = speed / open_water_speed;
     return bollard_pull * (1.0 - share / 3.0 - 2.0 / 3.0 * share * share);
 }
 
 // Where a search for the attained speed ends: the thrust is 0 at the open-water speed, and a table
-// says nothing beyond its last row.
+// ends with its last row.
 double Thrust::fastest() const {
     if (!table.empty()) return table.back().first;
     return open_water_speed > 0.0 ? open_water_speed : std::numeric_limits<double>::infinity();

@@ -26,8 +26,8 @@ constexpr double kWide = 860.0, kPhone = 400.0;
 
 const char* name_of(Source source) {
     switch (source) {
-        case Source::fixed_course:
-            return "fixed course";
+        case Source::prescribed_course:
+            return "prescribed course";
         case Source::free_ship:
             return "free ship";
         case Source::formula:
@@ -164,7 +164,7 @@ std::string draw_hv(const HvStudy& study, double width) {
         views::Curve line{title_of(curve), color, {}, formula ? 1.5 : 2.2, "", 1.0};
         if (formula) line.dash = kDashes[formulas++ % kDashes.size()];
         if (curve.source == Source::free_ship) line.mark = 'd';
-        if (curve.source == Source::fixed_course) line.mark = 'o';
+        if (curve.source == Source::prescribed_course) line.mark = 'o';
         for (const HvPoint& p : curve.points)
             if (std::isfinite(p.attained.speed))
                 line.points.emplace_back(p.thickness, p.attained.speed);
@@ -192,7 +192,8 @@ std::string make_hv_page(const sweep::Sweep& sweep, const HvStudy& study) {
     }
     out += report::section(
         "hv", "Speed against thickness",
-        "Fixed course: the speed at which the thrust, net of open water, equals the resistance. "
+        "Prescribed course: the speed at which the thrust, net of open water, equals the "
+        "resistance. "
         "The resistance is a line or a parabola through runs at given speeds; bars show where the "
         "thrust equals the ends of its 95 % interval. Free ship: mean speed of ships that the "
         "thrust drives. Formulas (dashed): the speed at which they equal the same thrust.",

@@ -5,7 +5,7 @@
 ///     key = "resistance.mean_N"   # dotted key of summary.json
 ///     value = 1400.0              # with abs and/or rel; or min and/or max instead
 ///     rel = 0.25
-///     why = "Lindqvist's submersion part, which knows no jam"
+///     why = "Lindqvist's submersion part, without jams"
 #pragma once
 
 #include <filesystem>

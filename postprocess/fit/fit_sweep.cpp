@@ -38,8 +38,8 @@ std::vector<FitPoint> fit_points(const sweep::Sweep& sweep, const std::vector<sw
         // fitted through logarithms of forces, which must be positive.
         if (point.dimension != 3 || !(point.part(sweep::Part::total).mean > 0.0)) continue;
         // (F3) has no angles of the bow: they are set to 0.
-        const HullForm hull{s.ship.length, s.ship.breadth, s.ship.draught, 0.0, 0.0};
-        // The option goes before the case: runs of broken ice have no strength of their own.
+        const HullDimensions hull{s.ship.length, s.ship.breadth, s.ship.draught, 0.0, 0.0};
+        // The option comes before the case: runs of broken ice have no strength of their own.
         const double strength =
             std::isfinite(flexural_strength) ? flexural_strength : s.ice.flexural_strength;
         FitPoint p;

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kFiles[] = {"run.xdmf", "shapes.xdmf", "arrays.h5", "view.py"};
-// The water's plane reaches this far beyond ice and ship [m]: enough to see that it goes on. A
+// The water's plane reaches this far beyond ice and ship [m]: enough to show that it continues. A
 // larger value makes ship and ice small beside the water.
 constexpr double kRoom = 2.0;
 
@@ -123,7 +123,7 @@ private:
         for (std::size_t b = 0; b < run_.header.body_shape.size(); ++b) {
             for (const auto& triangle : mesh_of(b).triangles)
                 for (const std::int32_t corner : triangle) out.push_back(first + corner);
-            // vertices of the floes stand one after the other in a frame's array
+            // vertices of the floes follow each other in a frame's array
             first += static_cast<std::int32_t>(mesh_of(b).vertices.size());
         }
         return out;
@@ -221,7 +221,7 @@ private:
             run_file_.add(part.name, frame.time, {hull, part.triangles, part.values});
         std::vector<float> corners;
         for (std::size_t b = 0; b < frame.position.size(); ++b) {
-            // Corners are stored turned and moved, in world axes: ParaView knows no rigid bodies.
+            // Corners are stored turned and moved, in world axes: ParaView has no rigid bodies.
             const std::vector<float> one =
                 posed(mesh_of(b), frame.position[b], frame.orientation[b].toRotationMatrix());
             corners.insert(corners.end(), one.begin(), one.end());

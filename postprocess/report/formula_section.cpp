@@ -175,7 +175,7 @@ std::string formula_section(const Summary& s, const ForceUnit& unit) {
     const bool level = is_level_ice(s.ice);
     const auto compared = comparable_formulas(formulas, level);
     std::vector<std::vector<std::string>> rows;
-    // a formula's part that says the same as the run is marked
+    // a formula's part that agrees with the run is marked
     for (const FormulaValue& f : formulas) {
         const bool same = std::any_of(compared.begin(), compared.end(), [&](const auto& c) {
             return c.name == f.name && c.part == f.part;

@@ -103,8 +103,8 @@ std::string column(const std::string& heading, const Rows& rows) {
     return rows.empty() ? "" : "<h3>" + escape(heading) + "</h3>\n" + facts(rows);
 }
 
-// The interval of one run alone looks too sure: the model's uncertainty is beside it. In level ice
-// that of broken ice does not apply; the error against model tests is known there.
+// The interval of one run alone would suggest too much certainty: the model's uncertainty is beside
+// it. In level ice that of broken ice does not apply; the error against model tests is known there.
 std::string model_card(const Summary& s, const ForceUnit& unit) {
     if (is_level_ice(s.ice))
         return card(fmt::format("{:.0f} to {:.0f} %", 100.0 * kLeastLevelIceError,

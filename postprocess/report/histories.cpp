@@ -232,7 +232,7 @@ std::vector<History> moment_histories(const RunData& run, double average_from,
 std::vector<History> motion_histories(const RunData& run, double average_from,
                                       const ForceUnit& unit) {
     std::vector<History> out;
-    if (!run.header.ship_answers || run.history.size() < 2) return out;
+    if (!run.header.ship_is_free || run.history.size() < 2) return out;
     const std::vector<double> time = times_of(run);
     // one degree [rad]: the file has radians, charts have degrees
     const double degree = std::acos(-1.0) / 180.0;

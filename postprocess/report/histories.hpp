@@ -50,7 +50,7 @@ std::vector<History> region_histories(const RunData& run, double average_from,
 std::vector<History> moment_histories(const RunData& run, double average_from,
                                       const ForceUnit& unit);
 
-/// Motions of a ship that answers: speed, thrust and tow, height, angles, where they change. None
+/// Motions of a free ship: speed, thrust and tow, height, angles, where they change. None
 /// for a prescribed course, or for fewer than 2 samples. @param unit of thrust and tow; speed
 /// [m/s], height [m] and angles [degrees] have their own
 std::vector<History> motion_histories(const RunData& run, double average_from,

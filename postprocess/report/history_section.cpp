@@ -40,7 +40,7 @@ std::string draw_history(const History& h) {
     chart.title = h.title;
     chart.y_title = h.y_title;
     for (const History::Curve& curve : h.curves) {
-        // samples stand beside averages of the same colour and are not named again
+        // samples have the colour of their averages and are not named again
         const bool is_samples = !curve.average;
         Curve line{is_samples ? "" : curve.name, curve.color, {}, 0.8, "", 0.35};
         if (curve.average) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The report's sections on the mean force's line of action, the moments, and the motion of a ship
-// that answers.
+// The report's sections on the mean force's line of action, the moments, and the motion of a free
+// ship.
 #include <fmt/format.h>
 
 #include "postprocess/report/page.hpp"
@@ -79,7 +79,7 @@ std::string motion_section(const RunData& run, const RunFigures& figures) {
     std::vector<std::string> charts;
     for (const History& h : figures.motions) charts.push_back(chart_holder(h.id, draw_history(h)));
     return section("motion", "Motion of the ship",
-                   fmt::format("The ship answers forces; motions that are locked are not shown. "
+                   fmt::format("Forces move the ship; motions that are locked are not shown. "
                                "Thin: samples; thick: moving averages over {} s.",
                                views::readable(average_window(run.history))),
                    report::figures(charts));

@@ -14,10 +14,10 @@ using views::escape;
 
 namespace {
 
-// a piece of the report's page that other pages share: its look, its buttons
+// a piece of the report's page that other pages share: its style, its buttons
 std::string template_piece(const char* opening, const char* closing) {
     const std::string_view page = page_template();
-    // an empty piece where the template has changed: the page then lacks its look, not its
+    // an empty piece where the template has changed: the page then lacks its style, not its
     // content
     const auto begin = page.find(opening), end = page.find(closing, begin);
     return begin == std::string_view::npos || end == std::string_view::npos

@@ -20,7 +20,7 @@ struct PageParts {
 /// tables and drawings.
 std::string make_page(const PageParts& parts);
 
-/// Beginning of another page up to <body>, in the look of the report. @param title plain text
+/// Beginning of another page up to <body>, in the style of the report. @param title plain text
 std::string open_page(const std::string& title);
 
 /// Its end from </main> on: origin, and the script of the buttons that save charts and tables.

@@ -42,7 +42,7 @@ std::string region_section(const RunFigures& figures, const std::string& table);
 /// Point of attack of the mean force and moments against time; "" for a run without histories.
 std::string moment_section(const RunData& run, const RunFigures& figures);
 
-/// Speed, drive, height and angles of a ship that answers against time; "" for a prescribed course.
+/// Speed, drive, height and angles of a free ship against time; "" for a prescribed course.
 std::string motion_section(const RunData& run, const RunFigures& figures);
 
 /// Peaks of the force on regions, line load and pressure on hull panels, with the hardest-loaded

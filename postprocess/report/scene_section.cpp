@@ -138,7 +138,7 @@ Pictures draw_instants(const RunData& run, const std::vector<SceneView>& views,
     for (const std::size_t k : middle_first(instants.size()))
         for (const SceneView& view : views) {
             std::string picture = view.draw(run.frames[instants[k]], trails);
-            // a smaller picture may still fit, so the search goes on
+            // a smaller picture may still fit, so the search continues
             if (used + picture.size() > budget) {
                 ++out.dropped;
                 continue;

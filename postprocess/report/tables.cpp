@@ -69,7 +69,8 @@ PressureUnit choose_pressure_unit(double largest) {
 
 namespace {
 
-// two digits of an interval say all that a mean is worth; without interval 4 digits of the mean
+// the precision of a mean is that of its interval's two digits; without interval 4 digits of the
+// mean
 int decimals_for(double mean, double interval, double newtons) {
     const double size = size_of(interval) > 0.0 ? size_of(interval) : 1e-2 * size_of(mean);
     if (!(size > 0.0)) return 0;
@@ -131,7 +132,7 @@ std::string force_table(const Summary& s, const ForceUnit& unit) {
                                         unit.text(f.std),
                                         unit.text(f.max)};
     };
-    // Parts and formulas stand below the resistance that they are part of or compare with.
+    // Parts and formulas are below the resistance that they are part of or compare with.
     std::vector<std::vector<std::string>> rows{row("Resistance (\u2212x)", s.resistance)};
     for (const auto& [name, part] : parts_of(s))
         rows.push_back({"  of it " + name, unit.text(part), "", "", "", ""});
@@ -237,7 +238,7 @@ std::string energy_table(const Summary& s) {
 
 namespace {
 
-// The count alone says nothing about the mean: most steps may miss the tolerance by very little.
+// The count alone does not bound the error: most steps may miss the tolerance by very little.
 std::string unconverged_text(const Summary& s) {
     std::string out = fmt::format("{} of {}", s.unconverged_steps, s.steps);
     // summaries of older programs lack the share

@@ -52,7 +52,7 @@ std::vector<std::pair<std::string, double>> parts_of(const Summary& summary);
 std::string force_table(const Summary& summary, const ForceUnit& unit);
 /// One row per region of the hull; "" when there are none.
 std::string region_table(const Summary& summary, const ForceUnit& unit);
-/// Where the ship's work went, in joules and as shares of it; "" for a run without an energy
+/// The uses of the ship's work, in joules and as shares of it; "" for a run without an energy
 /// ledger.
 std::string energy_table(const Summary& summary);
 /// The balance of the rows of energy_table(), in a sentence: the entries that put energy in are

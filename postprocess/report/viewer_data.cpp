@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    // JSON stands within a script element, which no text of a case may end
+    // JSON is within a script element, which no text of a case may end
     static std::string safe_text(const std::string& text) {
         std::string out;
         for (const char c : text)
@@ -99,7 +99,7 @@ private:
                 time.push_back(static_cast<float>(run_.frames[f].time));
                 for (int d = 0; d < 3; ++d)
                     ship.push_back(static_cast<float>(run_.frames[f].ship_position[d]));
-                if (!run_.header.ship_answers) continue;
+                if (!run_.header.ship_is_free) continue;
                 for (const double x : run_.frames[f].ship_orientation.coeffs())  // x y z w
                     turn.push_back(static_cast<float>(x));
             }
@@ -145,7 +145,8 @@ private:
                     low = std::min(low, p[d]);
                     high = std::max(high, p[d]);
                 }
-            // no finer than a thousandth of a floe: nobody sees less, and noise does not compress
+            // no finer than a thousandth of a floe: less is not visible, and noise does not
+            // compress
             const Quantiser axis = make_quantiser(low, high, 1e-3 * floe_size_);
             scale.push_back(axis.step);
             offset.push_back(axis.offset);

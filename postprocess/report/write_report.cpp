@@ -28,7 +28,7 @@ namespace {
 // mailed. A larger value draws more views.
 constexpr std::size_t kPageSize = 1950000;
 // Least and most that the drawn views take [bytes]: about one view in a page that is full already,
-// and no more than a reader looks at. A page of much data exceeds 2 MB by the least.
+// and no more than a reader needs. A page of much data exceeds 2 MB by the least.
 constexpr std::size_t kLeastBudget = 150000;
 constexpr std::size_t kMostBudget = 500000;
 // Tracked floes with charts of their own [-]; each takes some 20 kB of the page. run.h5 has all of

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Which input moves the resistance most, and whether the seeds allow to say so.
+/// Which input changes the resistance most, and whether the difference exceeds the seeds' scatter.
 #pragma once
 
 #include "common/base/uncertainty.hpp"

@@ -64,7 +64,7 @@ Study read_study(const std::filesystem::path& folder) {
     Study study;
     study.runs = sweep::read_sweep(folder);  // complains about anything but TOML
     study.title = study.runs.title;
-    // Parsed a second time, for the tables that a sweep does not know.
+    // Parsed a second time, for the tables that a sweep does not have.
     const toml::table table = toml::parse_file(plan.string());
     for_each(table, "input", [&](const toml::table& entry) {
         study.inputs.push_back(

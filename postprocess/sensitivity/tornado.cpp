@@ -18,7 +18,7 @@ using views::text_element;
 
 namespace {
 
-// Width of the chart and ends of its axis [px]: names of inputs stand left of kLeft. Larger ones
+// Width of the chart and ends of its axis [px]: names of inputs are left of kLeft. Larger ones
 // leave the page, smaller ones cut long names.
 constexpr double kWidth = 860.0, kLeft = 236.0, kRight = 846.0;
 // Top of the plot, height of a bar, distance between inputs, room for axis and legend below [px].
@@ -95,7 +95,7 @@ private:
             left = std::min(left, std::max(c.resistance.mean - half, low - 0.5 * span));
             right = std::max(right, std::min(c.resistance.mean + half, high + 0.5 * span));
         });
-        // labels stand outside their bars: the longest, as a share of the plot
+        // labels are outside their bars: the longest, as a share of the plot
         std::size_t longest = 1;
         each([&](const Change& c) { longest = std::max(longest, c.label.size()); });
         const double share =
@@ -149,7 +149,7 @@ private:
         out += text_element(kLeft - 12.0, middle - 3.0, input.name, "end", "font-weight=\"600\"");
         out += text_element(kLeft - 12.0, middle + 12.0, "case: " + input.base, "end", kSmall);
         double y = top + 0.5 * kBetween;
-        // a single bar stands in the middle of the row
+        // a single bar is in the middle of the row
         if (input.changes.size() < 2) y += 0.5 * kBar;
         for (const Change& change : input.changes) {
             out += bar(change, y);
@@ -163,7 +163,7 @@ private:
             return text_element(place(base_.mean) + 6.0, top + 14.0, change.label + ": no result",
                                 "start", kSmall);
         const double end = place(change.resistance.mean), middle = top + 0.5 * kBar;
-        // Colour says in which direction; pale says that the difference may be chance.
+        // Colour shows the direction; a pale bar may be chance.
         const bool rises = change.difference.mean >= 0.0;
         std::string out = rectangle(
             place(base_.mean), end, top + 3.0, top + kBar - 3.0,

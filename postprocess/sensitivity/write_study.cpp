@@ -35,7 +35,7 @@ struct Result {
     ForceUnit unit;
     ModelError model;
 
-    // Signed: a share says in which direction the input moves the resistance.
+    // Signed: a share has the direction in which the input changes the resistance.
     std::string percent(double force) const {
         // a mean of 0 has no shares
         return std::isfinite(force) && base.mean != 0.0
@@ -58,8 +58,8 @@ private:
     }
 };
 
-// With one run there is no scatter between seeds: the sentence says on which error the intervals
-// rest.
+// With one run there is no scatter between seeds: the sentence names the error on which the
+// intervals rest.
 std::string sentence_on_seeds(const Study& study) {
     const std::size_t n = study.base.resistance.size();
     return n == 1 ? "one run, its own interval" : fmt::format("{} seeds", n);

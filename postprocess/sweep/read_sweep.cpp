@@ -91,7 +91,7 @@ void read_outcome(const fs::path& log, SweepRun& run) {
     const fs::path file = run.folder / "summary.json";
     if (!fs::exists(file)) {
         run.fault = first_error(log);
-        // without a summary the log tells why the run ended
+        // without a summary the log shows why the run ended
         const bool begun = fs::exists(log) || fs::exists(run.folder / "case.resolved.cfg");
         run.status = begun ? "failed" : "not run";
         if (run.fault.empty())
@@ -177,7 +177,7 @@ Sweep read_sweep(const fs::path& folder) {
         if (sweep.runs.empty()) throw bad_input(folder.string(), "holds no runs", kRemedy);
         choose_axes(sweep, {});
     }
-    // The folder's name at least tells pages of several sweeps apart.
+    // The folder's name at least distinguishes pages of several sweeps.
     if (sweep.title.empty())
         sweep.title = "Sweep " + fs::weakly_canonical(folder).filename().string();
     return sweep;

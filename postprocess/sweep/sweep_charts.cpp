@@ -20,7 +20,7 @@ namespace {
 const std::vector<std::string> kColors{views::kBlue, views::kOrange, views::kGreen, views::kPurple,
                                        views::kBlack};
 // One mark per colour, so that curves differ in prints without colour, too. More curves than
-// colours have no overview: they could not be told apart.
+// colours have no overview: they could not be distinguished.
 constexpr char kMarks[] = {'o', 's', '^', 'd', 'v'};
 constexpr const char* kFormulaDash = "2 3";
 constexpr const char* kTwoRunsDash = "3 2";
@@ -77,8 +77,8 @@ public:
             if (!std::isfinite(estimate.mean)) continue;
             const double x = point.x(sweep_), y = estimate.mean / unit_.newtons;
             line.points.emplace_back(x, y);
-            // Two runs have an interval of t = 12.7 standard errors, which says little: its bar is
-            // dashed.
+            // Two runs have an interval of t = 12.7 standard errors, which is too wide to be of
+            // use: its bar is dashed.
             if (!std::isfinite(estimate.half)) continue;
             marks.push_back(interval(x, y, estimate.half / unit_.newtons, style.color));
             if (point.runs.size() != 2) continue;
@@ -178,7 +178,7 @@ std::string other_axis(const Sweep& sweep) {
 }
 
 // Names in the overview's legend: labels, or shorter names where these are too long for one row:
-// the values of the only other axis, whose name goes into the title, or letters.
+// the values of the only other axis, whose name is in the title, or letters.
 std::vector<std::string> name_curves(const Sweep& sweep, const std::vector<Curve>& curves,
                                      bool& valued) {
     // Letters of a legend [-] that fit one row of a chart 860 px wide, names with their samples.
@@ -188,7 +188,7 @@ std::vector<std::string> name_curves(const Sweep& sweep, const std::vector<Curve
     std::size_t length = 0;
     for (const Curve& curve : curves) length += curve.label.size() + 6;
     const std::string axis = other_axis(sweep);
-    // short names only if they tell the curves apart
+    // short names only if they differ
     std::set<std::string> values;
     if (!axis.empty() && length > kMostLetters)
         for (const Curve& curve : curves)

@@ -44,7 +44,7 @@ class Facts {
 public:
     explicit Facts(const Sweep& sweep) {
         for (const SweepRun& run : sweep.runs) {
-            // runs without a summary say nothing about ship and ice
+            // runs without a summary have no numbers of ship and ice
             if (!run.summary) continue;
             const auto speed = run.settings.find(kSpeedKey);
             if (speed != run.settings.end() && speed->second.number)

@@ -119,7 +119,7 @@ Point make_point(const Sweep& sweep, const std::map<std::string, Setting>& at,
     return point;
 }
 
-// Setting has no ==, which would ask whether "0.50" is 0.5: neither before the other is equal
+// Setting has no ==, which would have to compare "0.50" with 0.5: neither before the other is equal
 struct Before {
     const std::vector<std::string>& axes;
     bool operator()(const std::map<std::string, Setting>& a,
@@ -211,7 +211,7 @@ std::vector<Curve> make_curves(const Sweep& sweep, const std::vector<Point>& poi
         }
         return label;
     };
-    // full labels tell curves apart, short ones are shown where they suffice
+    // full labels distinguish curves, short ones are shown where they suffice
     std::map<std::string, std::size_t> row_of, count_of;
     std::vector<Curve> curves;
     for (const Point& point : points) {

@@ -40,7 +40,8 @@ std::size_t count_completed(const Sweep& sweep) {
 }
 
 std::string header(const Sweep& sweep, const std::vector<Sweep>& parts) {
-    // The share of completed runs comes first: a curve of half a sweep looks like a whole one.
+    // The share of completed runs comes first: a curve of half a sweep does not differ from a whole
+    // one.
     const std::size_t good = count_completed(sweep), all = sweep.runs.size();
     std::string affected = affected_line(sweep);
     if (!affected.empty()) affected = "<p><a href=\"#affected\">" + escape(affected) + "</a></p>\n";
@@ -106,7 +107,7 @@ std::string parts_section(const Sweep& sweep, const std::vector<Curve>& curves,
                    report::figures(charts));
 }
 
-// which parts of the formulas stand beside the runs
+// which parts of the formulas are shown beside the runs
 std::string compared(const std::vector<Point>& points) {
     std::string out;
     for (const FormulaCurve& f : comparable_curves({{"", points}}))

@@ -34,7 +34,7 @@ std::string dash_attribute(const std::string& dash) {
 
 // A sign of about 8 px at a place.
 std::string draw_mark(char mark, const Vec2& at, const std::string& color) {
-    // r: half the size [px]; all marks have about the same extent, so that none looks heavier
+    // r: half the size [px]; all marks have about the same extent, so that none dominates
     const double x = at.x(), y = at.y(), r = 4.2;
     const std::string fill = fmt::format("fill=\"{}\"", color);
     if (mark == 'o')
@@ -184,7 +184,7 @@ std::string draw_chart(const Chart& given) {
         return out + text_element(0.5 * chart.width, 0.5 * chart.height, "no data", "middle") +
                "</svg>\n";
 
-    // the last label of a logarithmic axis stands at its very end
+    // the last label of a logarithmic axis is at its very end
     const double right = chart.width - (chart.x_logarithmic ? 30.0 : 14.0);
     const auto keys = fill_rows(list_keys(chart), right - kLegendLeft);
     const double legend = 22.0 + kRow * static_cast<double>(keys.size());

@@ -9,7 +9,7 @@
 
 namespace ice::views {
 
-/// Nearest surface of a body per picture cell: tells which floes are in front of the hull.
+/// Nearest surface of a body per picture cell: shows which floes are in front of the hull.
 ///
 /// A painter's sort by centres fails between a long hull and small floes; comparing a floe with the
 /// hull at its own place does not.

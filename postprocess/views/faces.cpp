@@ -35,15 +35,15 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-// The border of some triangles as one loop of vertices; empty when it is not a single loop.
-std::vector<std::int32_t> border_loop(const TriangleMesh& mesh,
-                                      const std::vector<std::size_t>& triangles) {
+// The outline of some triangles as one loop of vertices; empty when it is not a single loop.
+std::vector<std::int32_t> outline_loop(const TriangleMesh& mesh,
+                                       const std::vector<std::size_t>& triangles) {
     std::map<std::int32_t, std::int32_t> next;
     std::map<Edge, int> used;
     for (const std::size_t t : triangles)
         for (std::size_t k = 0; k < 3; ++k)
             ++used[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}];
-    // an edge without its reverse is border; a vertex where two such edges begin has no single
+    // an edge without its reverse is outline; a vertex where two such edges begin has no single
     // loop
     for (const auto& [edge, count] : used) {
         if (used.count({edge.second, edge.first})) continue;
@@ -61,7 +61,7 @@ std::vector<std::int32_t> border_loop(const TriangleMesh& mesh,
     return loop.size() == next.size() ? loop : std::vector<std::int32_t>{};
 }
 
-// corners on a straight line between their neighbours say nothing
+// corners on a straight line between their neighbours are not needed
 std::vector<Vec3> corners_of(const TriangleMesh& mesh, const std::vector<std::int32_t>& loop) {
     std::vector<Vec3> corners;
     const std::size_t n = loop.size();
@@ -70,7 +70,7 @@ std::vector<Vec3> corners_of(const TriangleMesh& mesh, const std::vector<std::in
     };
     for (std::size_t k = 0; k < n; ++k) {
         const Vec3 in = at(k) - at(k + n - 1), out = at(k + 1) - at(k);
-        // 1e-6 is the sine of the angle below which an edge goes straight on; an edge that turns
+        // 1e-6 is the sine of the angle below which an edge counts as straight; an edge that turns
         // back is a corner, too
         if (in.cross(out).norm() > 1e-6 * in.norm() * out.norm() || in.dot(out) < 0.0)
             corners.push_back(at(k));
@@ -111,9 +111,9 @@ std::vector<Face> make_faces(const TriangleMesh& mesh) {
 
     std::vector<Face> faces;
     for (const auto& [first, triangles] : members) {
-        // one polygon per flat face has no lines inside; where its border is no single loop, its
+        // one polygon per flat face has no lines inside; where its outline is no single loop, its
         // triangles
-        const auto loop = border_loop(mesh, triangles);
+        const auto loop = outline_loop(mesh, triangles);
         if (!loop.empty()) {
             faces.push_back({corners_of(mesh, loop), normals[triangles.front()]});
             if (faces.back().corners.size() >= 3) continue;

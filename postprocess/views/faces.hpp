@@ -29,9 +29,9 @@ struct CutMesh {
 ///         below.
 CutMesh cut_mesh(const TriangleMesh& mesh, double level);
 
-/// Takes away the edges that change the form least (quadric error, Garland and Heckbert 1997) until
-/// `most` triangles are left. For pictures only: volume is not kept, nor is closedness where the
-/// surface cannot be simplified so far. Meshes of up to `most` triangles (a count) come back
+/// Takes away the edges that change the shape least (quadric error, Garland and Heckbert 1997)
+/// until `most` triangles are left. For pictures only: volume is not kept, nor is closedness where
+/// the surface cannot be simplified so far. Meshes of up to `most` triangles (a count) come back
 /// unchanged.
 TriangleMesh simplify_mesh(const TriangleMesh& mesh, std::size_t most);
 

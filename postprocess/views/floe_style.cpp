@@ -15,7 +15,7 @@ const FloeStyle& floe_style(FloeState state) {
 }
 
 TrailStyle trail_style(std::size_t k) {
-    // Ten colours and three dash patterns have no common factor: 30 floes look different before a
+    // Ten colours and three dash patterns have no common factor: 30 floes differ before a
     // pair of colour and dash comes again.
     static constexpr const char* kColors[]{"#332288", "#cc6677", "#117733", "#222222", "#3a9fc4",
                                            "#882255", "#8a8a1c", "#d55e00", "#aa4499", "#2a9d8f"};

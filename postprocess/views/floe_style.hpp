@@ -7,14 +7,14 @@
 
 namespace ice::views {
 
-/// How floes of one state look.
+/// Style of the floes of one state.
 struct FloeStyle {
     Eigen::Vector3i color;  ///< red, green, blue in [0, 255]
     const char* meaning;    ///< for the legend
 };
 const FloeStyle& floe_style(FloeState state);
 
-/// How the path of the k-th tracked floe looks, k from 0: ten colours that colour-blind people can
+/// Style of the path of the k-th tracked floe, k from 0: ten colours that colour-blind people can
 /// tell apart on white (after Tol's "muted" palette, 2021) and three dashes that change with each
 /// floe.
 struct TrailStyle {

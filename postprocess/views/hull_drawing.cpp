@@ -50,7 +50,7 @@ std::string outline(const std::vector<Vec3>& corners, const Projection& projecti
 // edges between a face towards the viewer and one away from it
 std::vector<std::pair<Vec3, Vec3>> turning_edges(const TriangleMesh& mesh,
                                                  const Projection& projection) {
-    std::map<std::pair<std::int32_t, std::int32_t>, int> edges;  // faces that look at the viewer
+    std::map<std::pair<std::int32_t, std::int32_t>, int> edges;  // faces towards the viewer
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const bool facing = mesh.area_vector(t).dot(projection.toward) > 1e-9;
         for (std::size_t k = 0; k < 3; ++k) {

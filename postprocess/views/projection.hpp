@@ -8,7 +8,7 @@
 
 namespace ice::views {
 
-/// Where the viewer stands. The bow is at the right, except for `port`, where it is at the left,
+/// The viewer's place. The bow is at the right, except for `port`, where it is at the left,
 /// and for `front`, which looks aft.
 enum class ViewFrom { below, top, side, port, front, quarter };
 

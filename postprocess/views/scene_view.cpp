@@ -162,7 +162,7 @@ std::string SceneView::Parts::draw_floe(std::size_t body, const RunFrame& frame,
     std::string out;
     for (const Face& face : faces[shape]) {
         const Vec3 normal = turn * face.normal;
-        // Faces that look away are hidden by the floe itself, which is convex or nearly so.
+        // Faces away from the viewer are hidden by the floe itself, which is convex or nearly so.
         if (normal.dot(projection.toward) <= 1e-6) continue;
         std::vector<Vec2> points;
         for (const Vec3& corner : face.corners) points.push_back(place(offset + turn * corner));

@@ -21,7 +21,7 @@ struct ViewOptions {
 };
 
 /// Draws frames of one run from one side. The picture moves with the ship, so the hull is prepared
-/// once and looks the same in every frame.
+/// once and is the same in every frame.
 ///
 /// Floes are drawn face by face, the far ones first; hull and floes are ordered by comparing each
 /// floe with the hull at its place. Floes outside the picture are left out and, from ahead, those

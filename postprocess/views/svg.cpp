@@ -62,6 +62,7 @@ std::string escape(const std::string& text) {
             out += "&quot;";
         else
             out += text.substr(k, length);
+        // a broken sequence costs one byte, so that the text after it stays
         k += std::max<std::size_t>(1, length);
     }
     return out;

@@ -21,7 +21,7 @@ namespace {
 constexpr double kFlatMesh = 1e-9;
 // Size of a repaired solid over the mesh's [-], at most: a shrink wrap lies outside. With 1 the
 // early refusal would refuse a radius that the wrap has room for; a larger value refuses fewer
-// radii early, and their repair takes its time in vain.
+// radii early, and their repair would take time without use.
 constexpr double kRepaired = 1.01;
 // A warning names the parts of the mesh that were left out of the solid where they have more than
 // this share of the mesh's area [-]. A larger value leaves lost parts unsaid, a smaller one warns

@@ -21,7 +21,7 @@ namespace {
 // larger maximum on coarse triangles and take longer.
 constexpr double kMostSamples = 4e5;
 // Distance over the size [-] up to which a vertex is on the surface: weld() merges such vertices. A
-// larger value takes more of the solid's triangles for caps of holes; with a smaller one, caps
+// larger value takes more of the solid's triangles for caps of openings; with a smaller one, caps
 // whose vertices were merged count as distance from the mesh.
 constexpr double kOnSurface = 1e-6;
 // Distance over the size [-] that counts as zero: rounding of computed coordinates. A larger value
@@ -213,7 +213,7 @@ void probe_solid(const TriangleMesh& source, const TriangleMesh& solid, std::vec
         if (probe.distance <= kRounding / kOnSurface * on) probe.distance = 0.0;
         if (probe.distance <= on) return;
         const auto t = static_cast<std::size_t>(probe.triangle);
-        // A triangle off the source with all corners in vertices of the source closes a hole: a
+        // A triangle off the source with all corners in vertices of the source closes an opening: a
         // cap.
         cap[k] = 1;
         for (int c = 0; c < 3; ++c)

@@ -19,7 +19,7 @@ constexpr double kBelt = 2.0;
 // value leaves spheres unsaid that reach out, a smaller one warns of rounding.
 constexpr double kMostProtrusion = 0.01;
 // Covering radius [spacings] worth a warning: a layer's own is 0.61 to 0.66. A smaller value warns
-// of ordinary layers, a larger one leaves holes unsaid.
+// of ordinary layers, a larger one leaves uncovered places unsaid.
 constexpr double kMostCover = 0.75;
 // A lattice that leaves more than this share of the surface [-] without a sphere is worth a
 // warning: edges leave less, a face between two layers of the lattice more. A smaller value warns

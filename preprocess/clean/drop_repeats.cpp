@@ -18,7 +18,7 @@ Triple sorted(Triple t) {
     return t;
 }
 
-// Triangles by their corners, for those on an edge of more than two only: nobody else can repeat.
+// Triangles by their corners, for those on an edge of more than two only: no others can repeat.
 std::map<Triple, std::vector<std::size_t>> group_by_corners(const TriangleMesh& mesh,
                                                             const std::vector<MeshEdge>& edges) {
     // Copies share all three edges, so that these have three triangles or more, or two that do not

@@ -13,8 +13,8 @@ struct RepeatCounts {
 
 /// Triangles with the same three corners, whichever way they face: one of them stays where its
 /// edges need it, that is where they have an odd number of other triangles; a wall that only hangs
-/// on the surface goes altogether. An edge without any other triangle says nothing: it may be a
-/// crack. @pre the mesh is welded. Cost O(T).
+/// on the surface is removed altogether. An edge without any other triangle does not count: it may
+/// be a crack. @pre the mesh is welded. Cost O(T).
 RepeatCounts drop_repeats(TriangleMesh& mesh);
 
 }  // namespace ice

@@ -30,7 +30,7 @@ constexpr double kFlatBeyond = 1.2;
 
 using Box = Eigen::AlignedBox3d;
 
-enum class Form { other, box, flat };
+enum class PieceShape { other, box, flat };
 
 struct Piece {
     Box box;
@@ -38,10 +38,12 @@ struct Piece {
     bool gone = false;
 
     // thin along one axis: a sheet; all triangles in the box's faces: a box
-    Form form() const {
+    PieceShape shape() const {
         const double small = kFlatSheet * box.diagonal().norm();
         const auto thin = (box.sizes().array() <= small).count();
-        return thin == 1 ? Form::flat : thin == 0 && on_box ? Form::box : Form::other;
+        return thin == 1             ? PieceShape::flat
+               : thin == 0 && on_box ? PieceShape::box
+                                     : PieceShape::other;
     }
 };
 
@@ -72,7 +74,7 @@ std::vector<Piece> measure_parts(const TriangleMesh& mesh, const Parts& parts) {
 
 // Whether a piece lies around the contents of a box, or reaches beyond them.
 bool surrounds(const Piece& piece, const Box& rest) {
-    const bool flat = piece.form() == Form::flat;
+    const bool flat = piece.shape() == PieceShape::flat;
     const double times = flat ? kFlatBeyond : kBoxBeyond;
     int beyond = 0;
     // around the rest in all directions, and far larger in two of them
@@ -86,13 +88,15 @@ bool surrounds(const Piece& piece, const Box& rest) {
 
 // Where there is nothing but boxes: those in the largest one, if that is far larger than they are.
 Box boxes_within(const std::vector<Piece>& pieces) {
-    const auto volume = [](const Piece& p) { return p.form() == Form::box ? p.box.volume() : 0.0; };
+    const auto volume = [](const Piece& p) {
+        return p.shape() == PieceShape::box ? p.box.volume() : 0.0;
+    };
     const auto largest =
         std::max_element(pieces.begin(), pieces.end(),
                          [&](const Piece& l, const Piece& r) { return volume(l) < volume(r); });
     Box rest;
     for (const Piece& piece : pieces)
-        if (piece.form() == Form::box && &piece != &*largest) rest.extend(piece.box);
+        if (piece.shape() == PieceShape::box && &piece != &*largest) rest.extend(piece.box);
     if (rest.isEmpty()) return largest->box;  // there may be a sea plane about one box
     const bool far = (largest->box.sizes().array() >= kBoxBeyondBoxes * rest.sizes().array()).all();
     return far ? rest : Box();
@@ -105,7 +109,7 @@ std::vector<std::string> drop_surroundings(TriangleMesh& mesh) {
     std::vector<Piece> pieces = measure_parts(mesh, parts);
     Box rest;
     for (const Piece& piece : pieces)
-        if (piece.form() == Form::other) rest.extend(piece.box);
+        if (piece.shape() == PieceShape::other) rest.extend(piece.box);
     std::vector<std::string> dropped;
     // Files of flow computations have the tank and the sea plane in them. A sheet or box is one of
     // these if it reaches around all that is neither.
@@ -113,12 +117,12 @@ std::vector<std::string> drop_surroundings(TriangleMesh& mesh) {
     if (rest.isEmpty()) rest = boxes_within(pieces);
     if (rest.isEmpty()) return dropped;
     for (Piece& piece : pieces) {
-        if (piece.form() == Form::other || !surrounds(piece, rest)) continue;
+        if (piece.shape() == PieceShape::other || !surrounds(piece, rest)) continue;
         piece.gone = true;
         const Vec3 size = piece.box.sizes();
         dropped.push_back(fmt::format("a {} of {:.3g} x {:.3g} x {:.3g} m around everything else",
-                                      piece.form() == Form::flat ? "flat sheet" : "box", size.x(),
-                                      size.y(), size.z()));
+                                      piece.shape() == PieceShape::flat ? "flat sheet" : "box",
+                                      size.x(), size.y(), size.z()));
     }
     if (dropped.empty()) return dropped;
     std::vector<std::uint8_t> keep(mesh.triangles.size());

@@ -17,7 +17,7 @@ namespace {
 
 // Of the diagonal: rounding of single-precision files; cracks between parts that were exported one
 // by one. Half a millimetre on a 50 m ship, far below a contact sphere's radius. Larger tolerances
-// would merge vertices of fine details; wider cracks are stitched (stitch_borders()).
+// would merge vertices of fine details; wider cracks are stitched (stitch_open_edges()).
 constexpr double kTolerances[] = {1e-6, 1e-5};
 
 // For each vertex the first that is within both ones' reach; itself where it has none.

@@ -15,7 +15,7 @@ struct WeldCounts {
 
 /// Merges equal vertices; then, only while edges stay open, the vertices of open edges within 1e-6
 /// of the mesh's diagonal, and at last within 1e-5 (cracks between parts exported one by one). A
-/// mesh that is closed as it stands keeps every coordinate.
+/// mesh that is closed already keeps every coordinate.
 ///
 /// Triangles that collapse or repeat are dropped, unused vertices go. The first of merged vertices
 /// keeps its position, so the result depends on nothing but the order in the file. Cost O(V + T).

@@ -122,7 +122,7 @@ std::vector<FieldKey> floe_keys() {
     };
 }
 
-// Unbroken ice around the field. Without it floes at the border can be pushed away freely, as in a
+// Unbroken ice around the field. Without it floes at the edge can be pushed away freely, as in a
 // basin that is wider than its ice.
 std::vector<FieldKey> edge_keys() {
     return {

@@ -7,7 +7,7 @@
 
 namespace ice {
 
-/// One key of a specification and where its value goes.
+/// One key of a specification and the member that takes its value.
 struct FieldKey : Key {
     void (*store)(FieldSpec&, const Value&);
 };

@@ -39,7 +39,7 @@ struct FieldSpec {
 
     double breaking_length = 0.0;  ///< cusps: advance from row to row [m]
     double breaking_width = 0.0;   ///< cusps: chord [m]
-    double breaking_depth = 0.0;   ///< cusps: how far the arc goes beyond its chord [m]
+    double breaking_depth = 0.0;   ///< cusps: height of the arc above its chord [m]
     double entrance_angle = 0.0;   ///< cusps: between a row and the centre line [rad]
     double jitter = 0.0;           ///< cusps: of the cusps' ends, in half breaking widths [-]
 

@@ -99,6 +99,7 @@ std::string draw_key(const Page& page, const FieldPlan& plan, double step) {
 }  // namespace
 
 std::string field_svg(const FieldPlan& plan) {
+    // the page shows all ice, also edges beyond the field's area
     Rectangle box = plan.area;
     for (const auto* floes : {&plan.loose, &plan.fixed})
         for (const Outline& floe : *floes)
@@ -129,6 +130,7 @@ std::string field_svg(const FieldPlan& plan) {
         }
         out += "</g>\n";
     };
+    // loose floes light, unbroken ice darker
     draw(plan.loose, "#eef4f8");
     draw(plan.fixed, "#a9bccb");
     return out + draw_axes(page, step) + draw_key(page, plan, step) + "</svg>\n";

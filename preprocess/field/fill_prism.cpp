@@ -14,7 +14,7 @@ namespace ice {
 namespace {
 
 // Cosine of 6.3 degrees [-]: the sides of an arc meet in edges and corners, too. Without them no
-// sphere has the normals between two sides, and another piece's edge goes in there. A larger value
+// sphere has the normals between two sides, and another piece's edge enters there. A larger value
 // puts spheres into flatter edges, a smaller one leaves more edges of arcs without.
 constexpr double kSharp = 0.994;
 
@@ -55,16 +55,16 @@ private:
 
 }  // namespace
 
-SphereSet fill_prism(const Outline& outline, const PrismForm& form, std::int64_t* corners) {
+SphereSet fill_prism(const Outline& outline, const PrismSpec& spec, std::int64_t* corners) {
     FillOptions options;
-    options.radius = form.radius;
-    options.spacing = form.spacing;
-    options.surface_only = form.surface_only;
+    options.radius = spec.radius;
+    options.spacing = spec.spacing;
+    options.surface_only = spec.surface_only;
     options.quick = true;
-    const FillPose pose(outline, form.spacing);
+    const FillPose pose(outline, spec.spacing);
     options.sharp = kSharp;
     options.edges_by_ends = pose.turns();  // the others are those of grids: a few for all floes
-    TriangleMesh prism = make_prism(outline, form.thickness, form.chamfer);
+    TriangleMesh prism = make_prism(outline, spec.thickness, spec.chamfer);
     for (Vec3& vertex : prism.vertices) vertex = pose.to(vertex);
     SpheresReport report;
     SphereSet set = fill_spheres(prism, options, report);
@@ -82,13 +82,13 @@ SphereSet fill_prism(const Outline& outline, const PrismForm& form, std::int64_t
     return set;
 }
 
-SphereSet fill_strip(double length, const PrismForm& form) {
+SphereSet fill_strip(double length, const PrismSpec& spec) {
     FillOptions options;
-    options.radius = form.radius;
-    options.spacing = form.spacing;
-    options.surface_only = form.surface_only;
+    options.radius = spec.radius;
+    options.spacing = spec.spacing;
+    options.surface_only = spec.surface_only;
     // A rectangle in the x-z plane about the origin, with its outward normals [m].
-    const double x = 0.5 * length, z = 0.5 * form.thickness;
+    const double x = 0.5 * length, z = 0.5 * spec.thickness;
     const Vec3 corners[]{{-x, 0, -z}, {x, 0, -z}, {x, 0, z}, {-x, 0, z}};
     const Vec3 normals[]{-Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitX()};
     Section section{{{}}};

@@ -8,8 +8,8 @@
 
 namespace ice {
 
-/// A floe made from its outline: a slab of ice with contact spheres.
-struct PrismForm {
+/// How a floe is made from its outline: a slab of ice with contact spheres.
+struct PrismSpec {
     double thickness, chamfer;  ///< [m]
     double radius, spacing;     ///< of the spheres [m]
     bool surface_only = true;
@@ -22,13 +22,13 @@ struct PrismForm {
 ///
 /// @param corners  where given, becomes the count of corners, each with a sphere of its own
 /// @throws Error (exit code 2) when no sphere fits, or a corner gets none
-SphereSet fill_prism(const Outline& outline, const PrismForm& form,
+SphereSet fill_prism(const Outline& outline, const PrismSpec& spec,
                      std::int64_t* corners = nullptr);
 
-/// The sphere set of a floe in 2D: the section `length` x `form.thickness` [m] filled with discs
+/// The sphere set of a floe in 2D: the section `length` x `spec.thickness` [m] filled with discs
 /// (fill_discs), about its centre. The chamfer is left out.
 ///
 /// @throws Error (exit code 2) when no disc fits
-SphereSet fill_strip(double length, const PrismForm& form);
+SphereSet fill_strip(double length, const PrismSpec& spec);
 
 }  // namespace ice

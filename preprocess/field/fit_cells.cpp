@@ -14,7 +14,7 @@ namespace {
 // none is found.
 constexpr int kMostSteps = 60;
 // Shortest share of a Newton step that is tried [-]; the fit ends where it brings nothing. A larger
-// value ends difficult fits early, a smaller one tries more cells in vain.
+// value ends difficult fits early, a smaller one tries more cells without success.
 constexpr double kSmallestStep = 1e-4;
 
 struct State {
@@ -81,7 +81,7 @@ std::vector<PowerCell> fit_cells(const std::vector<Vec2>& sites, const std::vect
         std::fill(weights.begin(), weights.end(), 0.0);
         now = measure(sites, areas, rectangle, weights);
     }
-    // A cell that vanishes has no edges left, and the matrix no longer knows how to bring it
+    // A cell that vanishes has no edges left, and the matrix has no entry to bring it
     // back.
     const double floor = 0.5 * std::min(least, now.smallest);
     for (int step = 0; step < kMostSteps && sites.size() > 1; ++step) {

@@ -25,34 +25,35 @@ namespace {
 // begins fills that run out of memory after hours, a smaller one refuses fields that have room.
 constexpr double kMostSpheres = 2e8;
 
-// Outlines about their centroids, each form once, and which of them every floe has.
-struct Forms {
+// Outlines about their centroids, each shape once, and which of them every floe has.
+struct Shapes {
     std::vector<Outline> outlines;
     std::vector<Vec2> centres;          // of the floes
     std::vector<std::int32_t> of_floe;  // row of outlines
 };
 
-class FormTable {
+class ShapeTable {
 public:
     void add(const Outline& outline) {
         const Vec2 centre = centroid_of(outline);
-        Outline form;
+        Outline centred;
         std::vector<std::int64_t> key;
         for (const Vec2& corner : outline) {
-            form.push_back(corner - centre);
-            // to a micrometre: forms that differ by rounding are one
-            for (int d = 0; d < 2; ++d) key.push_back(std::llround(form.back()[d] / kEqualCorners));
+            centred.push_back(corner - centre);
+            // to a micrometre: shapes that differ by rounding are one
+            for (int d = 0; d < 2; ++d)
+                key.push_back(std::llround(centred.back()[d] / kEqualCorners));
         }
         const auto [found, fresh] =
-            rows_.try_emplace(key, static_cast<std::int32_t>(forms_.outlines.size()));
-        if (fresh) forms_.outlines.push_back(form);
-        forms_.centres.push_back(centre);
-        forms_.of_floe.push_back(found->second);
+            rows_.try_emplace(key, static_cast<std::int32_t>(shapes_.outlines.size()));
+        if (fresh) shapes_.outlines.push_back(centred);
+        shapes_.centres.push_back(centre);
+        shapes_.of_floe.push_back(found->second);
     }
-    Forms take() { return std::move(forms_); }
+    Shapes take() { return std::move(shapes_); }
 
 private:
-    Forms forms_;
+    Shapes shapes_;
     std::map<std::vector<std::int64_t>, std::int32_t> rows_;
 };
 
@@ -71,18 +72,18 @@ void refuse_too_many(const FieldSpec& spec, const std::vector<Outline>& outlines
             "use a larger spacing, or fewer floes");
 }
 
-std::vector<SphereSet> fill_forms(const FieldSpec& spec, const std::vector<Outline>& outlines,
-                                  FieldReport& report) {
+std::vector<SphereSet> fill_shapes(const FieldSpec& spec, const std::vector<Outline>& outlines,
+                                   FieldReport& report) {
     refuse_too_many(spec, outlines);
-    const PrismForm form{spec.thickness, spec.chamfer, spec.radius, spec.spacing,
-                         spec.surface_only};
+    const PrismSpec prism{spec.thickness, spec.chamfer, spec.radius, spec.spacing,
+                          spec.surface_only};
     std::vector<SphereSet> shapes(outlines.size());
     std::vector<std::optional<Error>> errors(outlines.size());
     std::vector<std::int64_t> corners(outlines.size(), 0);
     // no exception may leave a thread: the first floe's is thrown afterwards
     parallel_tasks(outlines.size(), true, [&](std::size_t k) {
         try {
-            shapes[k] = fill_prism(outlines[k], form, &corners[k]);
+            shapes[k] = fill_prism(outlines[k], prism, &corners[k]);
         } catch (const Error& error) {
             errors[k] = error;
         }
@@ -150,11 +151,11 @@ FieldPlan plan_field(const FieldSpec& spec, std::vector<std::string>& warnings) 
 
 Field make_field(const FieldSpec& spec, const FieldPlan& plan, FieldReport& report) {
     const Timer timer;
-    FormTable table;
-    // floes of one form share their spheres; loose ones come first, and so have the lower numbers
+    ShapeTable table;
+    // floes of one shape share their spheres; loose ones come first, and so have the lower numbers
     for (const Outline& floe : plan.loose) table.add(floe);
     for (const Outline& floe : plan.fixed) table.add(floe);
-    const Forms forms = table.take();
+    const Shapes distinct = table.take();
 
     Field field;
     field.radius = spec.radius;
@@ -164,11 +165,11 @@ Field make_field(const FieldSpec& spec, const FieldPlan& plan, FieldReport& repo
                   plan.area.max().y()};
     field.specification = spec.text;
     field.seed = spec.seed;
-    field.shapes = fill_forms(spec, forms.outlines, report);
-    for (std::size_t k = 0; k < forms.of_floe.size(); ++k) {
+    field.shapes = fill_shapes(spec, distinct.outlines, report);
+    for (std::size_t k = 0; k < distinct.of_floe.size(); ++k) {
         FieldFloe floe;
-        floe.shape = forms.of_floe[k];
-        floe.position = {forms.centres[k].x(), forms.centres[k].y()};
+        floe.shape = distinct.of_floe[k];
+        floe.position = {distinct.centres[k].x(), distinct.centres[k].y()};
         floe.fixed = k >= plan.loose.size();
         field.floes.push_back(floe);
     }

@@ -10,7 +10,7 @@ namespace ice {
 struct FieldReport {
     std::size_t floes = 0, fixed = 0, shapes = 0;  ///< loose floes, pieces of unbroken ice
     std::size_t spheres = 0, surface_spheres = 0;  ///< of all floes together
-    std::int64_t corners = 0;    ///< of the shapes, each with a sphere that knows its three faces
+    std::int64_t corners = 0;    ///< of the shapes, each with a sphere that has its three faces
     double concentration = 0.0;  ///< area of loose floes over the field's [-]
     double mean_size = 0.0, smallest = 0.0, largest = 0.0;  ///< [m]
     double plan_seconds = 0.0, fill_seconds = 0.0;          ///< wall time [s]

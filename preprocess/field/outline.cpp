@@ -27,15 +27,14 @@ double size_of(const Outline& outline) {
 
 bool is_convex(const Outline& outline) {
     for (std::size_t k = 0; k < outline.size(); ++k)
-        // Outlines run counterclockwise: a convex one turns left at each corner, or goes straight
-        // on.
+        // Outlines run counterclockwise: a convex one turns left at each corner, or is straight.
         if (cross(outline[k] - previous(outline, k), next(outline, k) - outline[k]) < 0.0)
             return false;
     return true;
 }
 
 Outline without_straight_corners(const Outline& outline) {
-    // Sine of the turn [-] up to which a corner goes straight on: rounding of its coordinates. A
+    // Sine of the turn [-] up to which a corner counts as straight: rounding of its coordinates. A
     // larger value takes corners out of round outlines, a smaller one keeps corners that rounding
     // made.
     constexpr double kStraight = 1e-9;
@@ -63,7 +62,7 @@ Outline inset(const Outline& outline, double distance) {
         out.push_back(outline[k] + distance / fold * (n1 + n2));
     }
     for (std::size_t k = 0; k < outline.size(); ++k)
-        // An edge that has turned round has shrunk to nothing: the inset has no such form.
+        // An edge that has turned round has shrunk to nothing: the inset has no such shape.
         if ((next(out, k) - out[k]).dot(next(outline, k) - outline[k]) <= 0.0) return {};
     return out;
 }

@@ -36,10 +36,10 @@ inline Outline rectangle(double x, double y, double length, double breadth) {
 /// Diameter of the circle with that area [m]: the "size" of a floe in the whole program.
 double size_of(const Outline& outline);
 
-/// True when every corner turns left or goes straight.
+/// True when every corner turns left or is straight.
 bool is_convex(const Outline& outline);
 
-/// The outline without the corners at which it goes straight on.
+/// The outline without its straight corners.
 Outline without_straight_corners(const Outline& outline);
 
 /// The outline moved inward by `distance` [m], corner by corner along the bisectors (mitred).

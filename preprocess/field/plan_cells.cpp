@@ -104,7 +104,7 @@ std::vector<Outline> plan_voronoi(const FieldSpec& s, const Rectangle& area) {
     refuse_count(std::round(equal));
     auto floes = voronoi_floes(s, area, static_cast<std::size_t>(std::lround(equal)));
     const double ratio = mean_size(floes) / s.mean_size;
-    // the number of floes goes with 1 / size^2
+    // the number of floes is proportional to 1 / size^2
     const double better = std::round(static_cast<double>(floes.size()) * ratio * ratio);
     if (std::abs(ratio - 1.0) > kSizeMiss && better >= 1.0 &&
         better != static_cast<double>(floes.size()))

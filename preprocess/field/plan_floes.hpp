@@ -13,7 +13,7 @@ FieldPlan plan_grid(const FieldSpec& spec);
 
 /// The channel that an icebreaker leaves: rows of cusps, one behind the other along x.
 ///
-/// Row k ends, towards +x, in arcs of circles over chords of one breaking width that stand on
+/// Row k ends, towards +x, in arcs of circles over chords of one breaking width that lie on
 ///
 ///     x = x0 + k l + (B / 2 - |y|) cot(a),    l breaking length, B breadth, a entrance angle
 ///

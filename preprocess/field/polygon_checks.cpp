@@ -60,7 +60,7 @@ double overlap_depth(const Outline& a, const Outline& b) {
     Rectangle box_a, box_b;
     for (const Vec2& p : a) box_a.extend(p);
     for (const Vec2& p : b) box_b.extend(p);
-    // Triangles, because floes may be concave, and separating axes are for convex forms.
+    // Triangles, because floes may be concave, and separating axes are for convex shapes.
     if (!box_a.intersects(box_b)) return 0.0;
     const std::vector<Triangle> of_b = triangles_of(b);
     double deepest = 0.0;

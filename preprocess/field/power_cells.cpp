@@ -50,7 +50,7 @@ Regular triangulate_sites(const std::vector<Vec2>& sites, const std::vector<doub
     return Regular(points.begin(), points.end());
 }
 
-// False when a cell goes beyond the rectangle: images were missing.
+// False when a cell extends beyond the rectangle: images were missing.
 bool collect_cells(const Regular& regular, const Rectangle& r, std::vector<PowerCell>& cells) {
     const double slack = kOutside * r.sizes().maxCoeff();
     for (const auto& v : regular.finite_vertex_handles()) {

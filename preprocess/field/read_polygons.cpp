@@ -102,7 +102,7 @@ std::vector<NamedOutline> read_csv(const std::filesystem::path& file, const std:
                             "is no row floe, x, y: '" + line.substr(0, kMostQuoted) +
                                 (line.size() > kMostQuoted ? "...'" : "'"),
                             "write for instance 7, 12.5, -3");
-        // Rows of one floe stand together: an id that comes again after another one begins another
+        // Rows of one floe are adjacent: an id that comes again after another one begins another
         // outline, because one outline of both would jump.
         if (out.empty() || id != last) out.push_back({"floe " + id, {}});
         out.back().corners.emplace_back(x->value, y->value);

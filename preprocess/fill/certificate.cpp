@@ -22,7 +22,7 @@ namespace {
 constexpr double kThinGap = 2.5;
 // Distance [spacings] by which the nearest sphere may lie aside of a place: the layer's covering
 // radius. A larger value counts fewer places as thin or without a sphere, a smaller one counts
-// ordinary holes of the layer as such places.
+// places between the spheres of an ordinary layer as such.
 constexpr double kAside = 0.65;
 // Places whose cover is measured by a climb: the worst samples. More may find a worse place and
 // take as much longer.
@@ -158,7 +158,7 @@ double measure_protrusion(const SurfaceTree& tree, const SphereSet& set, bool ha
     parallel_for(set.surface_count, 512, [&](std::size_t k) {
         if (half && set.centers[k].y() < 0.0) return;
         // a conforming layer's centres are inside by their winding numbers (drop_outside), a
-        // lattice's by their rows', where a foot's normal may say otherwise
+        // lattice's by their rows', where a foot's normal may be another
         beyond[k] = set.radii[k] - tree.closest(set.centers[k]).distance;
     });
     return beyond.empty() ? 0.0 : std::max(0.0, *std::max_element(beyond.begin(), beyond.end()));
@@ -230,7 +230,7 @@ void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vec
         gap_max = std::max(gap_max, static_cast<double>(sight.gap));
         error_max = std::max(error_max, static_cast<double>(sight.normal_error));
     }
-    // the sphere a sample belongs to may stand aside by as much as the layer's spacing allows
+    // the sphere of a sample may lie aside by as much as the layer's spacing allows
     const double thin_gap =
         std::hypot((1.0 + kThinGap) * set.radius, kAside * set.spacing) - set.radius;
     Histogram gaps(gap_max), errors(error_max);

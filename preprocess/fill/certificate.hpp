@@ -20,7 +20,7 @@ namespace ice {
 /// - normal error: between the surface and the stored normal of the nearest sphere, over the same
 ///   samples as the covering radius, on faces (spread below 5 degrees);
 /// - thin features: connected places, where no sphere fits, whose gap exceeds 2.5 radii (more where
-///   the spacing is wide, since the nearest sphere then stands aside);
+///   the spacing is wide, since the nearest sphere then lies aside);
 /// - unfitted share: of the wetted surface (all of it where no draught is given), where no sphere
 ///   can touch and the gap exceeds half a radius;
 /// - gaps in the ice belt, where report.belt is given.

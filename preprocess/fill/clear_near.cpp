@@ -89,7 +89,7 @@ private:
     void ask_row(Visit& visit, double from, double to, const Vec3& start, std::size_t row) const {
         const Range is((from - start.x()) * per_.x(), (to - start.x()) * per_.x(), frame_.count[0]);
         if (is.from > is.to) return;
-        // 64 points per word; bits outside the range are masked, and only set bits are asked
+        // 64 points per word; bits outside the range are masked, and only set bits are read
         for (std::int64_t w = is.from >> 6; w <= is.to >> 6; ++w) {
             std::uint64_t mask = ~std::uint64_t{0};
             if (w == is.from >> 6) mask <<= is.from & 63;
@@ -123,7 +123,7 @@ struct Piece {
 void split(const Corners& whole, double most, std::vector<Piece>& out) {
     std::vector<Corners> open{whole};
     while (!open.empty()) {
-        // small pieces have tight boxes: fewer points of the lattice are measured in vain
+        // small pieces have tight boxes: fewer points of the lattice are measured without need
         const Corners corner = open.back();
         open.pop_back();
         std::size_t edge = 0;

@@ -42,7 +42,7 @@ double distance_to_next_face(const SurfaceTree& tree, const Vec3& center, const 
 // little.
 constexpr double kSameNormal = 0.9999;
 
-// The spheres that touch several faces: few of a ship's, and the only ones that can know a corner.
+// The spheres that touch several faces: few of a ship's, and the only ones that can have a corner.
 class CreasedSpheres {
 public:
     explicit CreasedSpheres(const SphereSet& set) : set_(set), grid_(set.spacing) {
@@ -55,8 +55,8 @@ public:
         first_.push_back(creases.size());
     }
 
-    // Is one of them in this corner and knows its faces?
-    bool know(const Seat& corner) const {
+    // Whether one of them lies in this corner and has its faces.
+    bool contain(const Seat& corner) const {
         return grid_.any_within(
             corner.center, kSameCorner * set_.spacing, [&](std::int32_t sphere) {
                 // creases are in order of their spheres: those of one are a range
@@ -130,7 +130,8 @@ CornerCount count_corners(const SurfaceTree& tree, const SphereSet& set, bool ha
     ICE_ASSERT(set.dimension == 3 && set.surface_count <= set.centers.size());
     std::vector<std::vector<Seat>> found(set.surface_count);
     parallel_for(set.surface_count, 64, [&](std::size_t k) {
-        // A corner is looked for from the edges that end in it: spheres on faces cannot lead there.
+        // The search for a corner starts from the edges that end in it: spheres on faces do not
+        // lead there.
         const bool on_face = set.normal_spread[k] == 0.0;
         if (on_face || (half && set.centers[k].y() < 0.0)) return;
         Seat seat{set.centers[k], set.normals[k], -1};
@@ -158,7 +159,7 @@ CornerCount count_corners(const SurfaceTree& tree, const SphereSet& set, bool ha
             // Of half a solid each corner off the plane of symmetry counts twice.
             const bool has_image = half && corner.center.y() > kSameCorner * set.spacing;
             out.all += has_image ? 2 : 1;
-            if (creased.know(corner)) continue;
+            if (creased.contain(corner)) continue;
             const Vec3& c = corner.center;
             out.blind.push_back(c);
             if (has_image) out.blind.emplace_back(c.x(), -c.y(), c.z());

@@ -40,7 +40,7 @@ struct CornerCount {
 };
 
 /// Follows the edges from every sphere in an edge to the corners at both ends, a spacing at most,
-/// and looks for a sphere there that knows the three faces.
+/// and searches there for a sphere that has the three faces.
 /// @param half  solid and set are their own mirror images: follows those with y >= 0 only
 /// @pre set.centers, surface_count and creases are set; 3D
 CornerCount count_corners(const SurfaceTree& tree, const SphereSet& set, bool half);

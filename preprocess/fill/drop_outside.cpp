@@ -87,7 +87,7 @@ public:
             const std::uint64_t wanted = keys_[c] + ahead;
             while (other < keys_.size() && keys_[other] < wanted) ++other;
             if (other == keys_.size()) return;
-            // Cubes of one heap need no look at their points: most are joined after the first
+            // Cubes of one heap need no comparison of their points: most are joined after the first
             // steps.
             if (keys_[other] != wanted || heaps.first_of(c) == heaps.first_of(other)) continue;
             if (overlap(c, other)) heaps.join(c, other);

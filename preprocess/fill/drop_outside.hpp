@@ -8,11 +8,11 @@
 namespace ice {
 
 /// Removes the centres of touching spheres whose winding number is a half or less: they are outside
-/// the solid, whatever the normal of the nearest face says (faces that cross each other, T-shaped
+/// the solid, whatever the normal of the nearest face (faces that cross each other, T-shaped
 /// junctions).
 ///
-/// The open ball of `radius` round a centre holds no surface, so the winding number is the same all
-/// over it, and over all balls that overlap: one centre of a connected heap is asked about, exactly
+/// The open ball of `radius` round a centre contains no surface, so all of it has one winding
+/// number, and so have all balls that overlap: one centre per connected group is tested, exactly
 /// (WindingNumber::contains).
 /// @param centers  of spheres of `radius` [m] that touch the surface, from whichever side; their
 ///                 order is kept

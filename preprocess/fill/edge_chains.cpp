@@ -11,8 +11,8 @@ namespace ice {
 
 namespace {
 
-// Cosine of the turn [-] at a vertex of a settled polyline, 20 degrees, above which it goes
-// straight on. Lower values would lose corners, higher ones put a sphere into each knuckle of a
+// Cosine of the turn [-] at a vertex of a settled polyline, 20 degrees, above which it counts
+// as straight. Lower values would lose corners, higher ones put a sphere into each knuckle of a
 // curved edge.
 constexpr double kStraightCos = 0.94;
 // Sum of the unit normals of an edge's faces [-] below which it is a knife's, of less than 12

@@ -16,8 +16,8 @@
 #include "preprocess/fill/drop_outside.hpp"
 #include "preprocess/fill/inscribed.hpp"
 #include "preprocess/fill/lattice.hpp"
+#include "preprocess/fill/make_layer.hpp"
 #include "preprocess/fill/shares.hpp"
-#include "preprocess/fill/shell.hpp"
 #include "preprocess/fill/twins.hpp"
 #include "preprocess/measure/mirror_symmetry.hpp"
 
@@ -98,9 +98,9 @@ void place_surface(const SurfaceTree& tree, const FillOptions& o, bool mirror, S
     if (o.arrangement == Arrangement::lattice) {
         place_lattice(tree, o, mirror, set);
     } else {
-        // A lattice is the paper's arrangement; the shell follows edges and corners, and each of
+        // A lattice is the paper's arrangement; the layer follows edges and corners, and each of
         // its spheres touches the surface.
-        set.centers = make_shell(tree, {o.radius, set.spacing, set.dimension, mirror,
+        set.centers = make_layer(tree, {o.radius, set.spacing, set.dimension, mirror,
                                         o.quick ? kQuickStep : kLineStep, o.sharp, o.edges_by_ends,
                                         [&](double share) { tell(o, "surface layer", share); }});
         if (set.dimension == 3 && !o.quick)

@@ -35,13 +35,13 @@ struct FillOptions {
 
 /// Fills a closed solid with contact spheres of one radius: surface spheres first, then interior.
 ///
-/// Conforming: a layer tangent to the surface from inside (fill/shell.hpp), then every point of a
-/// hexagonal close packing (in 2D a square lattice) whose sphere lies inside; the two overlap.
+/// Conforming: a layer tangent to the surface from inside (fill/make_layer.hpp), then every point
+/// of a hexagonal close packing (in 2D a square lattice) whose sphere lies inside; the two overlap.
 /// Lattice: a cubic one alone (fill/lattice.hpp). Shares, normals and the certificate are filled
 /// in; names and provenance are the caller's.
 ///
-/// The largest sphere inside is looked for first. The time falls as the radius grows: it is spent
-/// on places of the surface that are a part of the radius apart, not on the mesh's triangles.
+/// The search for the largest sphere inside comes first. The time falls as the radius grows: it is
+/// spent on places of the surface that are a part of the radius apart, not on the mesh's triangles.
 ///
 /// @throws Error (exit code 2) when no sphere fits, naming the largest radius that does
 SphereSet fill_spheres(const TriangleMesh& solid, const FillOptions& options,

@@ -8,7 +8,7 @@
 namespace ice {
 
 /// On a solid that is its own mirror image across y = 0: brings a seat into the half y >= 0 and,
-/// where it would stand nearer than `gap` [m] to the centre plane (and so to its own image), into
+/// where it would lie nearer than `gap` [m] to the centre plane (and so to its own image), into
 /// that plane. Nothing where it must move there but cannot: the surface lies along the plane.
 std::optional<Seat> mirror_seat(const SurfaceTree& tree, Seat seat, double radius, double gap);
 

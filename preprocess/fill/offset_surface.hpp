@@ -30,7 +30,7 @@ struct Seat {
                              ///< their normals
     double agree = 0.4226;   ///< cosine of kFaceTurn plus the cone's half angle
     int touches = 0;         ///< in a crease: how many of `touch` are known; 0: they are not
-    std::array<Vec3, 3> touch{};  ///< touch_directions(), not to be looked for at every question
+    std::array<Vec3, 3> touch{};  ///< touch_directions(), found once and kept
 
     /// True where the seat represents a surface with this normal.
     bool agrees(const Vec3& surface_normal) const { return normal.dot(surface_normal) >= agree; }
@@ -66,7 +66,7 @@ std::optional<Seat> settle(const SurfaceTree& tree, const Vec3& start, double ra
 std::optional<Seat> settle_in_crease(const SurfaceTree& tree, const Vec3& start, double radius);
 
 /// The surface normals that a seat represents: its own, or all that meet in its crease. They are
-/// in the seat or in `found`, whatever that held.
+/// in the seat or in `found`, whose old content is dropped.
 std::span<const Vec3> normals_at(const SurfaceTree& tree, double radius, const Seat& seat,
                                  std::vector<Vec3>& found);
 

@@ -21,7 +21,7 @@ class PointCells {
 public:
     /// @param points  copied; not empty
     /// @param cell    edge of a hashed cube [m], about the distance between neighbouring points;
-    ///                numbered ones cost less to look into and are half as wide
+    ///                numbered ones cost less to search and are half as wide
     PointCells(std::span<const Vec3> points, double cell);
 
     struct Nearest {
@@ -63,8 +63,8 @@ private:
 
     static constexpr double kFar = std::numeric_limits<double>::infinity();
     // Points of a block, and rings of cubes that are searched before blocks are [-]: they set the
-    // time, not the answers. Larger blocks measure more points in vain, smaller ones are more boxes
-    // to test; more rings visit more empty cubes, fewer test all blocks for nearer points.
+    // time, not the results. Larger blocks measure more points without need, smaller ones are more
+    // boxes to test; more rings visit more empty cubes, fewer test all blocks for nearer points.
     static constexpr std::size_t kBlock = 64;
     static constexpr int kMostRings = 12;
 
@@ -122,6 +122,7 @@ void PointCells::visit(const Vec3& p, double range, const Visit& visit) const {
         if (distance <= range) visit(point.index, distance);
     };
     if (!begin_.empty()) return for_each_near(p, range, look_at);
+    // a wide range has more cubes than there are blocks
     if (range > kMostRings * cell_) {
         for (const Block& block : blocks_)
             if (block.box.squaredExteriorDistance(p) <= range * range * (1.0 + 1e-12))

@@ -11,10 +11,10 @@
 
 namespace ice {
 
-/// Points hashed into cubes, growing one by one; answers "is one near?".
+/// Points hashed into cubes, growing one by one; tests whether one is near.
 class PointGrid {
 public:
-    /// @param cell  edge of a cube [m], about the ranges that are asked
+    /// @param cell  edge of a cube [m], about the range of the queries
     explicit PointGrid(double cell) : cell_(cell) {}
 
     void add(const Vec3& p) {

@@ -19,7 +19,7 @@ using LatticeBits = std::vector<std::uint64_t>;
 /// rounded crossing is off by a few units in the last place and so can misplace only points that
 /// near the surface, which clear_near() takes away.
 ///
-/// @pre every edge of the mesh is run through as often forwards as backwards (closed); shells may
+/// @pre each edge occurs equally often in both directions (closed); shells may
 ///      overlap (winding number other than 0) and vertices need not be shared
 /// Same bits for any thread count. Cost O(triangles + rows + crossings + words).
 LatticeBits rows_inside(const TriangleMesh& mesh, const LatticeFrame& frame);

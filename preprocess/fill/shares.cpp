@@ -78,9 +78,10 @@ Vec3 moment_of(const SphereSet& set, std::size_t from, std::size_t to) {
     });
 }
 
-// Multiplies the first `count` shares so that with `others` sum v = V and sum v x = V centroid,
-// changing them least. Repeated: for the rounding, and where a share would become negative, which
-// is then held just above zero. Where that cannot be, the shares keep their proportions.
+// Multiplies the first `count` shares, by factors as near to 1 as possible, so that with `others`
+// sum v = V and sum v x = V centroid. A pass leaves rounding; a share that would become negative is
+// set just above zero. Both need further passes. If that has no solution, the shares keep their
+// proportions.
 // @param others  volume and first moment about the centroid of the shares that stay
 void match_moments(std::size_t count, const Eigen::Vector4d& others, bool mirror, SphereSet& set) {
     Eigen::Vector4d target = -others;

@@ -121,8 +121,8 @@ PointCells::Nearest SphereFinder::covering(const Vec3& p, const Vec3& normal,
 }
 
 double survey_size(const SphereSet& set, bool half) {
-    // A quarter of the spacing sees holes of the layer; for very fine sets the number of samples is
-    // bounded, as the percentiles do not need more.
+    // A quarter of the spacing finds the places between spheres; for very fine sets the number of
+    // samples is bounded, as the percentiles do not need more.
     const double area = set.solid.area * (half ? 0.5 : 1.0);
     return std::max(std::min(set.spacing, 2.0 * set.radius) / 4.0,
                     set.dimension == 2 ? 0.0 : std::sqrt(area / kMostSamples));

@@ -70,7 +70,7 @@ private:
 std::vector<Sight> survey_surface(const SurfaceTree& tree, const SphereSet& set,
                                   const SphereFinder& finder, bool half, bool shares_only = false);
 
-/// Edge of the surface pieces that survey_surface looks from [m]: a quarter of the spacing, more
+/// Edge of the surface pieces that survey_surface samples [m]: a quarter of the spacing, more
 /// where that would be over one and a half million of them.
 double survey_size(const SphereSet& set, bool half);
 

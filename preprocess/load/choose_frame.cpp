@@ -102,7 +102,7 @@ private:
     }
 
     void choose_up() {
-        // The user's word, then the file's, then the form; without any z, as in most CAD programs.
+        // The user's word, then the file's, then the shape; without any z, as in most CAD programs.
         // Only choices that the user has not made are noted.
         if (options_.up) {
             frame_.up = Direction::from(*options_.up);
@@ -120,7 +120,7 @@ private:
         if (!options_.up) doubt_up();
     }
 
-    // A warning only: a deckhouse on a hull, or a floe's form, may be broad at the bottom, too.
+    // A warning only: a deckhouse on a hull, or a floe's shape, may be broad at the bottom, too.
     void doubt_up() {
         if (!hull_ || hull_->prism || hull_->vertical != frame_.up.axis) return;
         if (!narrows_upwards(mesh_, *hull_, frame_.up.positive)) return;
@@ -168,7 +168,7 @@ private:
     bool front_along_length() const { return file_.front && file_.front->axis == hull_->length; }
 
     // -1 where the end at the smaller coordinate is clearly the finer one, +1 where the other is,
-    // 0 where the form does not tell.
+    // 0 where the shape does not show it.
     int finer_end() const {
         const double ends = fineness_ratio(mesh_, *hull_), tips = tip_ratio(mesh_, *hull_);
         if (ends <= kFiner || ends >= 1.0 / kFiner) return ends < 1.0 ? -1 : 1;
@@ -184,7 +184,7 @@ private:
             return;
         }
         const int bow = finer_end();
-        // the breadth of a prism is that of a 2D section and tells nothing of its ends
+        // the breadth of a prism is that of a 2D section and does not show its ends
         note("forward",
              frame_.forward.text() +
                  (bow == 0 && hull_->prism ? ", but which end is the bow cannot be seen" : ""));
@@ -232,7 +232,8 @@ private:
                             axis_name(longest), frame_.forward.text()));
     }
 
-    // An open half hull in other axes: named, not turned, since an open deck looks the same.
+    // An open half hull in other axes: named, not turned, since an open deck has the same open
+    // edges.
     void doubt_half() {
         // the axis that is left: the three numbers add up to 3
         const int port = 3 - frame_.up.axis - frame_.forward.axis;

@@ -26,7 +26,7 @@ struct Direction {
 
 /// The file's own statements on its numbers.
 struct FileFrame {
-    std::string format;            ///< "glTF", "Collada", "FBX"; empty for formats that say nothing
+    std::string format;            ///< "glTF", "Collada", "FBX"; empty for formats without these
     std::optional<double> metres;  ///< per file unit
     std::optional<Direction> up;
     std::optional<Direction> front;  ///< a habit of the program that wrote it: see choose_frame()
@@ -48,7 +48,7 @@ struct ReadNotes {
     /// long in metres". No entry where an option gave the value.
     std::map<std::string, std::string> guessed;
     std::vector<std::string> warnings;
-    std::int64_t centre_plane_dropped = 0;  ///< triangles in y = 0 that went before mirroring
+    std::int64_t centre_plane_dropped = 0;  ///< triangles in y = 0 removed before mirroring
 };
 
 /// Units and axes in use.
@@ -67,7 +67,7 @@ struct Frame {
 /// **Units.** Ships and floes are 0.05 m to 600 m long (the longest ships: 458 m). A length in that
 /// range is metres. 1000 to 600 000 file units are millimetres, in which drawing programs export.
 /// All else (600 to 1000: a floe in mm or a boat in cm; below 0.05; above 600 000) stays in
-/// metres, with a warning. A solid below 600 mm drawn in millimetres cannot be told from a ship.
+/// metres, with a warning. A solid below 600 mm drawn in millimetres does not differ from a ship.
 ///
 /// **Axes.** A mesh is taken for a hull when its longest extent is 1.5 times the next or more and
 /// exactly one of the two axis planes along it is a plane of symmetry (asymmetry()): the centre
@@ -83,7 +83,7 @@ struct Frame {
 /// and 14 % of the length from the end, or by half at 0.5 % (a stem against a transom); else at the
 /// positive end, with a warning. A hull that lies along x already is not turned about even when its
 /// finer end is aft, since sterns can be fine and bows bluff: that is a warning, and so are two
-/// ends of one fineness, unless the hull is a prism (a 2D section), whose breadth says nothing of
+/// ends of one fineness, unless the hull is a prism (a 2D section), whose breadth does not show
 /// its ends. The file's front direction counts only along the hull's length: programs write it out
 /// of habit, whatever the hull's axes.
 ///

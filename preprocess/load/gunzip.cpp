@@ -44,7 +44,7 @@ std::vector<char> gunzip(const std::filesystem::path& file, std::uint64_t limit)
     // [bytes] read at a time: larger blocks gain no time, smaller ones more calls.
     constexpr std::size_t block = 1 << 20;
     gzbuffer(in.get(), block / 4);
-    // a file that does not begin as gzip would be handed through as it is
+    // a file that does not begin as gzip would be passed on unchanged
     if (gzdirect(in.get()) == 1) throw damaged(file, "it does not begin as one");
 
     std::vector<char> bytes;

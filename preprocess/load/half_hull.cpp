@@ -46,7 +46,7 @@ std::vector<std::int32_t> first_at_place(const std::vector<Vec3>& vertices) {
         const Vec3& v = vertices[static_cast<std::size_t>(k)];
         return std::array{v.x(), v.y(), v.z()};
     };
-    // By place, then by number: equal places stand together, the first vertex in front. Places must
+    // By place, then by number: equal places are adjacent, the first vertex in front. Places must
     // be equal to the bit, as files write one vertex of several triangles.
     std::sort(order.begin(), order.end(), [&](std::int32_t l, std::int32_t r) {
         return std::pair(place(l), l) < std::pair(place(r), r);

@@ -35,8 +35,9 @@ struct HalfHull {
 /// be at least 2.5 times as long as broad (hulls are 1.5 times and more, their halves 3), and
 /// unlike its own mirror image about the middle of its breadth: a barge or a floe drawn from y = 0
 /// to its full breadth is a whole solid with one side in that plane. The closed half of a
-/// straight-sided barge therefore counts as whole: nothing in the mesh tells it from a barge of
-/// half the breadth. Where both are found, the plane is closed but torn: none, until it is mended.
+/// straight-sided barge therefore counts as whole: nothing in the mesh distinguishes it from a
+/// barge of half the breadth. Where both are found, the plane is closed but torn: none, until it is
+/// mended.
 ///
 /// Equal vertices need not be welded. Open edges elsewhere (an open deck) do not matter. Empty and
 /// flat meshes are none. Cost O(T log T); O(T) for a mesh on both sides of the plane.

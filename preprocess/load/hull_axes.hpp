@@ -31,11 +31,12 @@ double fineness_ratio(const TriangleMesh& mesh, const HullAxes& axes);
 /// The same of the sections at 0.5 % of the length from each end: a stem against a transom.
 double tip_ratio(const TriangleMesh& mesh, const HullAxes& axes);
 
-/// Whether a hull looks upside down. Length times breadth of its level sections falls by 1 % or
-/// more from each to the next at 10, 30, 50, 70 and 90 % of the depth, counted from the lower end
-/// of `vertical` (the upper one where `upwards` is false), and by more than a tenth in all. Of an
-/// upright hull they grow up to the deck, whatever is built on it; those of a box or a pontoon with
-/// a house on it are equal below. An upside-down hull with vertical sides at the deck is not seen.
+/// Whether a hull seems to be upside down. Length times breadth of its level sections falls by 1 %
+/// or more from each to the next at 10, 30, 50, 70 and 90 % of the depth, counted from the lower
+/// end of `vertical` (the upper one where `upwards` is false), and by more than a tenth in all. Of
+/// an upright hull they grow up to the deck, whatever is built on it; those of a box or a pontoon
+/// with a house on it are equal below. An upside-down hull with vertical sides at the deck is not
+/// seen.
 bool narrows_upwards(const TriangleMesh& mesh, const HullAxes& axes, bool upwards);
 
 }  // namespace ice

@@ -95,7 +95,7 @@ private:
     void add(const aiMesh& mesh, const aiNode& node, const Mat4& here) {
         // a node may mirror its part: its triangles are then inside out
         const bool reflects = here.topLeftCorner<3, 3>().determinant() < 0.0;
-        // Each place once: what follows would take six times as long with a corner for each
+        // Each place once: the next steps would take six times as long with a corner for each
         // triangle, as STL has them.
         const std::vector<std::int32_t> equal = equal_places(mesh);
         std::vector<std::int32_t> number(mesh.mNumVertices);
@@ -136,7 +136,7 @@ std::string format_name(const std::filesystem::path& file) {
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (!name.empty()) name.erase(0, 1);
-    // "hull.gz" has lost its ending; the bytes of most formats do not tell their kind
+    // "hull.gz" has lost its ending; the bytes of most formats do not show their kind
     if (name.empty() && is_gzip_name(file))
         throw bad_input(file.string(), "does not say the format inside",
                         "name it like hull.stl.gz");

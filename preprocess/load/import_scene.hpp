@@ -20,7 +20,7 @@ struct ImportedMesh {
 ///   - Collada: the unit (a float) and a rotation to y up are put into the root node, which Collada
 ///     itself does not have. Both are read from there as metadata and not applied, so that a scale
 ///     or axis from the command line replaces them instead of coming on top.
-///   - FBX: neither unit nor axes are applied; they stand in the scene's metadata. UnitScaleFactor
+///   - FBX: neither unit nor axes are applied; they are in the scene's metadata. UnitScaleFactor
 ///     is in centimetres.
 ///   - glTF: nothing is applied; metres, y up and front +z by its specification (2.0, section 3.4).
 ///   - OBJ, STL, PLY, OFF: no units, no axes.
@@ -29,9 +29,9 @@ struct ImportedMesh {
 /// hands the mesh over (read_in_child()). It opens no file outside the mesh's own folder: a
 /// material library elsewhere is left out, a glTF buffer elsewhere is an error.
 ///
-/// @throws Error (exit code 2) naming the file, when its name tells no format that is read, when
-///         assimp or gunzip() cannot read it, when reading it crashes, takes too long or more
-///         memory than ReadBounds::for_size() grants
+/// @throws Error (exit code 2) naming the file, when its name has the ending of no format that is
+///         read, when assimp or gunzip() cannot read it, when reading it crashes, takes too long or
+///         more memory than ReadBounds::for_size() grants
 ImportedMesh import_scene(const std::filesystem::path& file);
 
 }  // namespace ice

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// PLY, OFF and binary STL say how much follows their header. It is counted before any reader sees
-// the file: assimp 5.2 crashes on PLY and OFF files that were cut off.
+// PLY, OFF and binary STL state the amount of data after their header. It is counted before any
+// reader sees the file: assimp 5.2 crashes on PLY and OFF files that were cut off.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -177,7 +177,7 @@ void check_off(const std::filesystem::path& file, std::ifstream& in) {
                    std::clamp(vertices, 0L, kMostRows) + std::clamp(faces, 0L, kMostRows));
 }
 
-// A binary STL says how many triangles follow, 50 bytes each; text begins with "solid".
+// A binary STL states the number of triangles that follow, 50 bytes each; text begins with "solid".
 void check_stl_length(const std::filesystem::path& file, std::ifstream& in) {
     std::array<char, 84> head{};
     in.read(head.data(), head.size());

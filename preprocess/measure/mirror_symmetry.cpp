@@ -19,8 +19,8 @@ bool is_mirror_symmetric(const SurfaceTree& tree) {
         if (!symmetric) return;
         if (tree.is_clear(Vec3(p.x(), -p.y(), p.z()), tolerance)) symmetric = false;
     };
-    // Corners and middles of triangles whose images lie on the surface: planes and borders then
-    // agree, however both sides are triangulated.
+    // Corners and middles of triangles whose images lie on the surface: planes and open edges
+    // then agree, however both sides are triangulated.
     parallel_for(mesh.vertices.size(), 512, [&](std::size_t k) { check(mesh.vertices[k]); });
     parallel_for(mesh.triangles.size(), 512, [&](std::size_t t) {
         check((mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0);

@@ -35,7 +35,7 @@ std::array<RowVolume, 3> measure_rows(const TriangleMesh& mesh, int rows) {
     for (const Vec3& v : mesh.vertices) box.extend(v);
     std::array<RowVolume, 3> out;
     if (mesh.triangles.empty() || box.sizes().minCoeff() <= 0.0) return out;
-    // along three axes: a hole that no row of one axis meets changes the volume along another
+    // along three axes: an opening that no row of one axis meets changes the volume along another
     for (int axis = 0; axis < 3; ++axis) {
         const Vec3 step = box.sizes() / rows;
         const RowGrid grid{axis, box.min(), step, rows, rows, true};

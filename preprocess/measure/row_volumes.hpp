@@ -13,7 +13,7 @@ struct RowVolume {
     double by_sign = 0.0;        ///< crossings with their sign: tends to the signed volume
     double by_winding = 0.0;     ///< where the winding number along the row is positive
     double by_parity = 0.0;      ///< where an odd number of crossings lies before
-    std::int64_t open_rows = 0;  ///< rows that leave through a hole: their signs do not cancel
+    std::int64_t open_rows = 0;  ///< rows that leave through an opening: their signs do not cancel
 };
 
 /// Sends rows x rows lines through the mesh along x, y and z, one at a random place of each cell of

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "preprocess/clean/stitch_borders.hpp"
+#include "preprocess/clean/stitch_open_edges.hpp"
 
 namespace ice {
 
@@ -19,8 +19,8 @@ constexpr double kWorthWarning = 0.002;
 constexpr double kDoubtWorthWarning = 0.005;
 // Openings named one by one [-]; the others are counted. A larger value makes longer reports.
 constexpr std::size_t kMostNamed = 5;
-// Share of the open edges' vertices that lie beside another border [-], from which on the openings
-// are told as cracks. Of a hole none do.
+// Share of the open edges' vertices that lie beside another open edge [-], from which on the
+// openings are reported as cracks. No vertex around a real opening does.
 constexpr double kCracked = 0.25;
 
 }  // namespace
@@ -33,7 +33,7 @@ std::vector<std::string> cap_warnings(const ClosedSurface& closed) {
     std::vector<std::string> out;
     std::vector<CapVerdict> large;
     for (const CapVerdict& cap : closed.caps) {
-        // An open deck is said whatever its size: it is the one cap that a user may not have
+        // An open deck is reported whatever its size: it is the one cap that a user may not have
         // expected.
         if (cap.kind == CapKind::deck)
             out.push_back(fmt::format("the open deck at {} was closed by a cap of {:.3g} m2",
@@ -76,8 +76,8 @@ std::string fault_of(const CapVerdict& cap, const ClosedSurface& closed) {
 std::string fault_of_cracks(const TriangleMesh& open) {
     const WideCracks cracks = find_wide_cracks(open);
     const auto all = static_cast<double>(cracks.vertices);
-    // Vertices along a hole have no other open edge beside them; those along a crack have the other
-    // side of it.
+    // Vertices around an opening have no other open edge beside them; those along a crack have the
+    // other side of it.
     if (static_cast<double>(cracks.beside_another) <= kCracked * all) return "";
     return fmt::format(
         "of the {} vertices on those left, {} lie beside another open edge, up to {:.2g} m away: "

@@ -20,7 +20,7 @@ std::vector<std::string> cap_warnings(const ClosedSurface& closed);
 /// its size.
 std::string fault_of(const CapVerdict& cap, const ClosedSurface& closed);
 
-/// That many openings are cracks between patches which stitch_borders() left; "" where not.
+/// Says that many openings are cracks between patches, left by stitch_open_edges(); "" if not.
 std::string fault_of_cracks(const TriangleMesh& open);
 
 }  // namespace ice

@@ -12,7 +12,7 @@
 #include "preprocess/clean/self_intersections.hpp"
 #include "preprocess/clean/weld.hpp"
 #include "preprocess/load/half_hull.hpp"
-#include "preprocess/repair/border_loops.hpp"
+#include "preprocess/repair/opening_loops.hpp"
 
 namespace ice {
 
@@ -56,7 +56,7 @@ std::string SolidDiagnosis::text() const {
     const auto add = [&](std::int64_t count, const char* what) {
         if (count > 0) faults += fmt::format("{}{} {}", faults.empty() ? "" : ", ", count, what);
     };
-    add(open_edges, "open edges (holes or unwelded parts)");
+    add(open_edges, "open edges (openings or unwelded parts)");
     add(crowded_edges, "edges with more than two triangles");
     add(inconsistent_edges, "edges whose triangles face opposite ways");
     add(intersecting_pairs, "pairs of triangles that cross");
@@ -69,7 +69,7 @@ std::string SolidDiagnosis::text() const {
 
 std::vector<Opening> find_openings(const TriangleMesh& mesh) {
     std::vector<Opening> openings;
-    for (const BorderLoop& loop : border_loops(mesh)) {
+    for (const OpeningLoop& loop : opening_loops(mesh)) {
         Opening opening;
         const std::size_t n = loop.vertices.size();
         opening.edges = static_cast<std::int64_t>(n);
@@ -89,7 +89,7 @@ std::vector<Opening> find_openings(const TriangleMesh& mesh) {
 
 std::string describe_mesh(TriangleMesh mesh) {
     const std::size_t triangles = mesh.triangles.size();
-    // Faults are told of the welded mesh: a file of single triangles would have nothing but open
+    // Faults are those of the welded mesh: a file of single triangles would have nothing but open
     // edges.
     const WeldCounts welded = weld(mesh);
     const SolidDiagnosis d = diagnose_solid(mesh);

@@ -8,7 +8,7 @@
 
 namespace ice {
 
-/// A hole of the surface.
+/// A part of the surface that is missing.
 struct Opening {
     Vec3 at = Vec3::Zero();  ///< mean of its corners [m]
     double perimeter = 0.0;  ///< [m]
@@ -39,7 +39,7 @@ SolidDiagnosis diagnose_solid(const TriangleMesh& mesh);
 /// The part of diagnose_solid() that tests edges only: cheap.
 SolidDiagnosis diagnose_edges(const TriangleMesh& mesh);
 
-/// The holes, the longest first. @pre the mesh is welded and its faces are oriented
+/// The openings, the longest first. @pre the mesh is welded and its faces are oriented
 std::vector<Opening> find_openings(const TriangleMesh& mesh);
 
 /// Several lines on a mesh as it was read (welded here, otherwise untouched): size, parts, edges,

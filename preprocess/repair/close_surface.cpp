@@ -111,12 +111,12 @@ ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repa
     // copies that face the other way hid the cracks beside them from the first welding
     if (repeats.copies > 0)
         note("near vertices beside repeated triangles merged", weld(mesh).near_vertices);
-    // A half hull is mirrored before holes are closed: its opening in the plane y = 0 is no hole.
+    // A half hull is mirrored before openings are capped: the one in the plane y = 0 needs no cap.
     if (is_open_half(mesh)) mirror(mesh, repairs);
     note("triangles turned to agree with their neighbours", orient_faces(mesh));
 
     ClosedSurface out;
-    std::vector<Cap> caps = cap_holes(mesh);
+    std::vector<Cap> caps = cap_openings(mesh);
     note("edges between several sheets separated", separate_sheets(mesh));
     note("loose parts without volume dropped", drop_scraps(mesh, caps));
     note("inside-out surfaces turned over", turn_parts_outward(mesh));
@@ -124,7 +124,7 @@ ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repa
     for (std::size_t k = 0; k < caps.size(); ++k) {
         if (out.caps[k].kind == CapKind::deck) name_deck(mesh, caps[k]);
         if (out.caps[k].kind == CapKind::guess && caps[k].perimeter > 0.0)
-            // 4 area / perimeter is the hydraulic diameter: the width of a hole of any form
+            // 4 area / perimeter is the hydraulic diameter: the width of an opening of any shape
             out.widest = std::max(out.widest, 4.0 * out.caps[k].area / caps[k].perimeter);
     }
     const auto count = [&](CapKind kind) {
@@ -133,8 +133,8 @@ ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repa
     };
     note("deck closed by a cap", count(CapKind::deck));
     note("openings inside other parts closed", count(CapKind::hidden));
-    note("holes in flat faces closed", count(CapKind::continued));
-    note("small holes closed", count(CapKind::small));
+    note("openings in flat faces closed", count(CapKind::continued));
+    note("small openings closed", count(CapKind::small));
     // the surface without any cap, and without guesses: for the second opinions on the volume
     out.open = without_caps(mesh, caps, [](std::size_t) { return true; });
     out.unsure =

@@ -14,7 +14,7 @@ struct ClosedSurface {
     TriangleMesh mesh;             ///< each edge has two triangles that agree; parts face outwards
     TriangleMesh open;             ///< the surface without its caps
     TriangleMesh unsure;           ///< the surface without the caps that are a guess
-    std::vector<CapVerdict> caps;  ///< one per hole
+    std::vector<CapVerdict> caps;  ///< one per opening
     double surface = 0.0;          ///< area without caps [m2]
     double widest = 0.0;           ///< of caps that are a guess: 4 area / perimeter [m]
     double volume = 0.0;           ///< of all parts [m3]
@@ -22,7 +22,7 @@ struct ClosedSurface {
 };
 
 /// Welded triangles -> a surface without boundary: copies and walls without thickness dropped, an
-/// open half hull mirrored, faces turned to agree, holes capped, sheets separated, parts turned
+/// open half hull mirrored, faces turned to agree, openings capped, sheets separated, parts turned
 /// outwards, scraps without volume dropped. Its repairs are appended to `repairs`; the caps are
 /// judged but not refused here.
 ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repairs& repairs);

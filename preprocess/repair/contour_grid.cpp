@@ -21,8 +21,8 @@ std::size_t offset_of(const Grid& grid, int corner) {
            static_cast<std::size_t>(corner >> 2 & 1) * nx * ny;
 }
 
-// Marching tetrahedra, not cubes: a cube has ambiguous cases that can leave holes or edges of four
-// triangles, a tetrahedron has none, at the price of more triangles.
+// Marching tetrahedra, not cubes: a cube has ambiguous cases that can leave openings or edges of
+// four triangles, a tetrahedron has none, at the price of more triangles.
 class Contour {
 public:
     Contour(const Grid& grid, const std::vector<std::uint8_t>& inside)

@@ -15,8 +15,8 @@ namespace ice {
 
 namespace {
 
-// Edges round a face or two, or round one vertex, that are missing [-]: such a hole has a known
-// form. A larger value takes open ends of coarse meshes for such holes, a smaller one refuses
+// Edges round a face or two, or round one vertex, that are missing [-]: such an opening has a known
+// shape. A larger value takes open ends of coarse meshes for such openings, a smaller one refuses
 // meshes that lack a face at an end.
 constexpr std::size_t kFewEdges = 8;
 
@@ -66,8 +66,8 @@ public:
         box_ = box;
     }
 
-    // A cap of guessed form where the solid ends along its length: how much farther it went, a
-    // whole stem perhaps, nothing tells, however little volume that had.
+    // A cap of guessed shape where the solid ends along its length. A whole stem may be missing
+    // there; its length is unknown, however small its volume.
     bool cuts_an_end(const Cap& cap, const CapVerdict& verdict) const {
         if (verdict.kind != CapKind::small || verdict.area <= CapLimits::kEnd * surface_ ||
             cap.rim.size() <= kFewEdges)
@@ -198,7 +198,7 @@ private:
         const auto first = static_cast<std::size_t>(cap.first);
         for (std::int32_t t = cap.first; t < cap.first + cap.count; ++t)
             for (int k = 0; k < 3; ++k) rim.extend(mesh_.corner(static_cast<std::size_t>(t), k));
-        std::vector<Vec3> higher;  // corners that might stand above the cap
+        std::vector<Vec3> higher;  // corners that might be above the cap
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
             if (parts_.of_triangle[t] != parts_.of_triangle[first]) continue;
             for (int k = 0; k < 3; ++k) {

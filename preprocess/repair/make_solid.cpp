@@ -14,7 +14,7 @@
 #include "preprocess/clean/find_parts.hpp"
 #include "preprocess/clean/orient_faces.hpp"
 #include "preprocess/clean/self_intersections.hpp"
-#include "preprocess/clean/stitch_borders.hpp"
+#include "preprocess/clean/stitch_open_edges.hpp"
 #include "preprocess/clean/weld.hpp"
 #include "preprocess/measure/row_volumes.hpp"
 #include "preprocess/repair/cap_texts.hpp"
@@ -88,8 +88,8 @@ public:
         open_edges_ = diagnose_edges(mesh).open_edges;
         if (open_edges_ > 0) stitch(mesh);
         if (options_.mode == RepairMode::wrap) return wrap(mesh);
-        // parts that touch in edges, then holes, then crossings: each step needs the result of the
-        // one before
+        // parts that touch in edges, then openings, then crossings: each step needs the result of
+        // the one before
         if (auto solid = unite_touching(mesh)) return flood(std::move(*solid));
         if (!diagnose_edges(mesh).closed()) mesh = close(std::move(mesh));
         return flood(untangle(std::move(mesh)));
@@ -139,13 +139,13 @@ private:
     }
 
     void stitch(TriangleMesh& mesh) {
-        const StitchCounts counts = stitch_borders(mesh);
+        const StitchCounts counts = stitch_open_edges(mesh);
         note(fmt::format("open edges stitched across cracks of up to {:.2g} m", counts.widest),
              counts.split);
         note("vertices merged across cracks", counts.merged);
     }
 
-    // Holes capped, faces turned, half hulls mirrored.
+    // Openings capped, faces turned, half hulls mirrored.
     TriangleMesh close(TriangleMesh mesh) {
         ClosedSurface closed = close_surface(std::move(mesh), options_, repairs_);
         if (closed.mesh.triangles.empty()) throw refusal("the volume is zero");
@@ -174,7 +174,7 @@ private:
     Error too_large(const CapVerdict& cap, const ClosedSurface& closed) const {
         const std::string fault =
             fmt::format("{} open edges; {}", open_edges_, fault_of(cap, closed));
-        // The likeliest cause first: a file that may be damaged, borders that fit each other, an
+        // The likeliest cause first: a file that may be damaged, patches that fit each other, an
         // opening that may be meant.
         if (!options_.suspect.empty())
             return refusal(fault + ", and " + options_.suspect, "export or copy the file again");
@@ -251,7 +251,7 @@ private:
 
     void say_resolved(const TriangleMesh& mesh, const CrossingPairs& pairs) {
         // Parts that overlap are usual in drawings of ships and only noted; a part that crosses
-        // itself in many places is a scan or folded, and the user should know.
+        // itself in many places is a scan or folded: a warning says so.
         const Parts parts = find_parts(mesh);
         std::set<std::int32_t> united;
         std::set<std::size_t> cut, own;

@@ -29,12 +29,12 @@ using Repairs = std::vector<std::pair<std::string, std::int64_t>>;
 
 /// Triangles as read -> the closed, outward surface of one solid.
 ///
-/// The ladder: closed as it is; cracks stitched; a half hull mirrored; faces turned to agree, holes
-/// capped, parts turned outwards; crossings resolved where they are (resolve_crossings); contoured
-/// from the winding number; shrink-wrapped. A rung is left for the next when its result does not
-/// verify (verify_solid, three axes), or, where caps matter, when the winding number of the open
-/// surface gives another volume. A cap that would invent a shape is no rung at all: the mesh is
-/// refused (judge_caps).
+/// The ladder: closed as it is; cracks stitched; a half hull mirrored; faces turned to agree,
+/// openings capped, parts turned outwards; crossings resolved where they are (resolve_crossings);
+/// contoured from the winding number; shrink-wrapped. A rung is left for the next when its result
+/// does not verify (verify_solid, three axes), or, where caps matter, when the winding number of
+/// the open surface gives another volume. A cap that would invent a shape is no rung at all: the
+/// mesh is refused (judge_caps).
 ///
 /// @param name     of the file, for messages
 /// @param repairs  steps are appended; nothing is changed that is not counted there, but for equal

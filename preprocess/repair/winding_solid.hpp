@@ -12,7 +12,7 @@ namespace ice {
 struct WindingSolid {
     TriangleMesh mesh;     ///< closed, outward; region of the nearest triangle of the source
     double cell = 0.0;     ///< edge of the grid's cubes [m]: nothing smaller is kept
-    double unclear = 0.0;  ///< share of the rows that leave through a hole [-]
+    double unclear = 0.0;  ///< share of the rows that leave through an opening [-]
 };
 
 /// Solid where the winding number of the surface is positive: whatever crosses, overlaps or repeats

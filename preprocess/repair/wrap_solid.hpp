@@ -11,7 +11,7 @@ namespace ice {
 /// @return the wrap; empty when CGAL fails. Regions are not set.
 TriangleMesh alpha_wrap(const TriangleMesh& mesh, double alpha, double offset);
 
-/// The wrap laid back towards the surface: each vertex within 2 offsets of it goes nine tenths of
+/// The wrap laid back towards the surface: each vertex within 2 offsets of it moves nine tenths of
 /// the way to its nearest point, so that the offset adds little volume, unless triangles would
 /// cross. Regions follow.
 TriangleMesh wrap_solid(const TriangleMesh& mesh, double alpha, double offset);

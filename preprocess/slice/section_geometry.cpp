@@ -62,7 +62,7 @@ std::vector<std::vector<Vec3>> orient_loops(std::vector<std::vector<Vec3>> loops
     std::vector<Polygon> polygons;
     for (const auto& loop : loops) polygons.push_back(to_polygon(loop));
     for (std::size_t k = 0; k < loops.size(); ++k) {
-        // One corner tells for the whole loop: loops of a closed solid do not cross.
+        // One corner decides for the whole loop: loops of a closed solid do not cross.
         int around = 0;
         for (std::size_t other = 0; other < loops.size(); ++other)
             around +=
@@ -90,7 +90,7 @@ std::vector<std::array<std::int32_t, 3>> triangulate(const std::vector<std::vect
         }
         for (std::size_t k = 0; k < handles.size(); ++k)
             // Edges of the loops are kept as they are: no triangle lies partly in the solid and
-            // partly in a hole, so the centroid tells for the whole triangle.
+            // partly in a hole, so the centroid decides for the whole triangle.
             delaunay.insert_constraint(handles[k], handles[(k + 1) % handles.size()]);
         polygons.push_back(to_polygon(loop));
     }

@@ -24,7 +24,7 @@ std::string report_text(const SpheresReport& r, const std::string& output) {
     out += fmt::format("{}: {} {} of radius {:g} m\n", output, r.spheres,
                        flat ? "discs" : "spheres", r.radius);
     line("on the surface", fmt::format("{}, spaced {:g} m", r.surface_spheres, r.spacing));
-    // Interior spheres cost memory in every later step: the report says so next to their number.
+    // Interior spheres cost memory in every later step: the report states it next to their number.
     if (r.spheres > r.surface_spheres)
         line("inside", fmt::format("{}, which no contact uses; --mode surface leaves them out and "
                                    "saves {:.2g} MB",
@@ -47,7 +47,7 @@ std::string report_text(const SpheresReport& r, const std::string& output) {
     if (r.unfitted_share > 0.0)
         line("no sphere fits", fmt::format("{:.2g} % of the {}surface", 100.0 * r.unfitted_share,
                                            r.belt ? "wetted " : ""));
-    // Below here lines appear only where there is something to say.
+    // The lines below appear only if there is something to report.
     for (const CutBack& cut : r.cut_back) line("cut back", cut_back_text(cut));
     if (r.belt) line("ice belt", ice_belt_text(r));
     for (const auto& [step, count] : r.repairs)

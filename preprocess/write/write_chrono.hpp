@@ -7,7 +7,7 @@
 namespace ice {
 
 /// A set as a clump of Chrono's DEM-Engine: header "x,y,z,r", then rows [m] in the frame of the
-/// centre of mass and the principal axes, without comments (its CSV reader knows none). Mass,
+/// centre of mass and the principal axes, without comments (its CSV reader accepts none). Mass,
 /// moments and pose are in the JSON file beside it (common/formats/rigid_body_file.hpp):
 ///
 ///     LoadClumpType(mass_kg, moments_kg_m2, file, material)

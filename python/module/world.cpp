@@ -112,6 +112,7 @@ double energy_residual(const ice::World& world) {
 }  // namespace
 
 PYBIND11_MODULE(_world, m) {
+    // errors of input become Python's ValueError, with fault and remedy as text
     py::register_exception_translator([](std::exception_ptr error) {
         try {
             if (error) std::rethrow_exception(error);
@@ -123,6 +124,7 @@ PYBIND11_MODULE(_world, m) {
     using ice::Bodies, ice::WaterLoad, ice::World;
     py::class_<World>(m, "World")
         .def(py::init(&open_world), py::arg("case"), py::arg("overrides"), py::arg("threads"))
+        // a step needs no Python object: other threads run meanwhile
         .def("step", &ice::step, py::call_guard<py::gil_scoped_release>())
         .def("forces", &forces)
         .def("contacts", &contacts)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The load that breaks a piece off, from its form and the case (docs/method.md, section 5).
+/// The load that breaks a piece off, from its shape and the case (docs/method.md, section 5).
 #pragma once
 
 #include "common/geometry/triangle_mesh.hpp"

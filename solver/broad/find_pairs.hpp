@@ -21,7 +21,7 @@ struct BodyPair {
 /// Pairs whose bounding spheres (for the ship: its box) come within `margin` [m] of each other.
 ///
 /// A uniform grid over the positions of floes near moving ones, so the cost is O(floes). Pairs
-/// of two held floes are left out: neither can move. Sorted by a, then b; the answer does not
+/// of two held floes are left out: neither can move. Sorted by a, then b; the result does not
 /// depend on thread count. A scene without floes has none; a floe whose position is not a number
 /// has none with other floes. @pre Bodies::moving lists the floes that are not held, ascending
 /// @param out  its old content is dropped
@@ -62,7 +62,7 @@ private:
     std::int32_t drifting_ = -1;                 // the held floe that drifts fastest; -1: none does
     Eigen::AlignedBox3d vicinity_;               // of all moving bodies
     std::vector<std::int32_t> floes_;            // in it, held ones too
-    std::size_t bodies_ = 0;                     // that were looked at for them
+    std::size_t bodies_ = 0;                     // that were searched for them
     PlacedFloes placed_;                         // of these floes, when the list was made
 };
 

@@ -21,7 +21,7 @@ public:
     /// @param dt  [s] the coming step, for path_after_step
     void update(const Scene& scene, double dt);
 
-    /// Bodies that have another form and place now begin anew with a path of 0: their jump is no
+    /// Bodies that have another shape and place now begin anew with a path of 0: their jump is no
     /// path.
     /// @pre all that was kept of their paths is dropped, too
     void forget(const Scene& scene, const std::vector<std::int32_t>& bodies);

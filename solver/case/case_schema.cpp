@@ -163,7 +163,8 @@ std::vector<CaseKey> contact_keys() {
          [](Case& c, G&, const Value& v) { c.contact.crushing_pressure = number(v); }},
         // both stop a solution: the tolerance where it converges, the number where it does not
         {"contact.iterations", Kind::integer, D::none, "30", 1, 100000, 0, "",
-         "Upper bound of the contact solver's iterations for a solution; a step takes a few.",
+         "Upper bound of the contact solver's iterations, its sweeps over all contacts, for a "
+         "solution; a step takes a few solutions.",
          [](Case& c, G&, const Value& v) { c.contact.iterations = integer(v); }},
         {"contact.tolerance", Kind::number, D::speed, "1e-4", 0, 10, 0, "",
          "The solver stops when no contact's velocity changes by more than this in an iteration.",
@@ -197,7 +198,7 @@ std::vector<CaseKey> water_keys() {
          "The dynamic pressure of the flow around the hull acts on the floes, beside its drag.",
          [](Case& c, G&, const Value& v) { c.flow_pressure = integer(v) != 0; }},
         {"flow.added_mass", Kind::choice, D::none, "\"none\"", 0, 0, 0, kAddedMasses,
-         "Added mass of the floes: none, or computed for each form in deep water, in 3D.",
+         "Added mass of the floes: none, or computed for each shape in deep water, in 3D.",
          [](Case& c, G&, const Value& v) { c.floes_move_water = text(v) == "computed"; }},
     };
 }

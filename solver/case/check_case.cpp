@@ -49,9 +49,9 @@ void check_group(FloeGroup& group, std::size_t g, int dimension, const Values& v
     if (dimension == 2) check_plane(group, wrong);
 }
 
-// Ice held until it bends: crushing bounds the load.
-// Why each is needed: F of (26) against rigid ice is not finite, l of (28) grows without bound
-// as g goes to zero, and Kashtelyan's form has an opening angle, which a section has not.
+// What ice held until it bends needs. Crushing bounds the load: F of (26) against rigid ice is not
+// finite. l of (28) grows without bound as g goes to zero. Kashtelyan's formula has an opening
+// angle, which a section has not.
 void check_bending(const Case& checked, std::size_t groups, const Complaints& complaints) {
     const auto check = [&](const std::string& label, const std::string& what) {
         const auto wrong = [&](const std::string& why) {
@@ -68,6 +68,7 @@ void check_bending(const Case& checked, std::size_t groups, const Complaints& co
                               "bending.model = \"kashtelyan\" is for cases of dimension 3; in 2D "
                               "ice is a beam: use \"wedge\"");
     };
+    // floes laid beforehand, and the sheet of [level_ice], bend by the same laws
     for (std::size_t g = 0; g < groups; ++g)
         if (checked.floes[g].hold == Hold::until_bent)
             check(fmt::format("floes.{}.hold", g),

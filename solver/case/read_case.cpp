@@ -30,8 +30,8 @@ public:
     }
 
     Case build() {
-        // Which of several keys is meant first: it decides what is missing and some of the
-        // defaults.
+        // The choice among exclusive keys comes first: it decides which keys are missing, and
+        // some defaults.
         check_choices();
         case_.floes.resize(groups_);
         std::string table;
@@ -69,7 +69,7 @@ private:
         table = now;
     }
 
-    // Keys of [[floes]] stand together in the schema. @return the first key behind them
+    // Keys of [[floes]] are adjacent in the schema. @return the first key behind them
     std::size_t build_floes(std::size_t first) {
         const auto& keys = case_keys();
         std::size_t end = first;
@@ -194,6 +194,7 @@ private:
         const auto of_sheet = [](const std::string& label) {
             return label.starts_with("level_ice.");
         };
+        // a value that could not be read is reported already
         if (mistakes_.bad_keys.contains(thickness)) return;
         const auto given = values_.find(thickness);
         if (given != values_.end()) {
@@ -260,7 +261,7 @@ private:
     Case case_;
 };
 
-// "floes.gap" of an override goes to every group, with its place for complaints
+// "floes.gap" of an override applies to every group, with its place for complaints
 void spread_to_groups(Values& values, std::size_t groups, Mistakes& mistakes) {
     for (const CaseKey& key : case_keys()) {
         const std::string path(key.path);

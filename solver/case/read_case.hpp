@@ -12,8 +12,8 @@ namespace ice {
 /// Reads a case file (TOML 1.0), applies `key=value` overrides and fills in the defaults.
 ///
 /// An override's value is read as TOML first, then as text: `contact.restitution=0.1`,
-/// `ice.density=917 kg/m3`. `floes.gap=...` goes to every [[floes]] table, `floes.2.gap=...` to the
-/// second. Paths are relative to the case file; Case::resolved holds them absolute.
+/// `ice.density=917 kg/m3`. `floes.gap=...` applies to every [[floes]] table, `floes.2.gap=...` to
+/// the second. Paths are relative to the case file; Case::resolved holds them absolute.
 ///
 /// @throws Error (exit code 2) with every mistake at once, each with line, column and the line
 ///         itself: unknown key (with the nearest known one), wrong type or unit, out of range,

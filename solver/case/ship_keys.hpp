@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Keys of a ship that answers the ice: [ship], [propulsion], [tow], [mooring].
+/// Keys of a free ship: [ship], [propulsion], [tow], [mooring].
 #pragma once
 
 #include <algorithm>
@@ -51,7 +51,7 @@ struct Propulsion {
     SpeedCurve resistance_table;  ///< in open water [N], where the thrust is not net
 };
 
-/// [tow]: a spring and a damper from the ship to a carriage that goes at hull.speed.
+/// [tow]: a spring and a damper from the ship to a carriage with the speed hull.speed.
 struct Tow {
     Vec3 point = Vec3::Zero();  ///< ship frame [m]
     double stiffness = 0.0;     ///< [N/m]; 0: no tow

@@ -64,7 +64,7 @@ void push_ship(Bodies& bodies, const Constraint& c, const Vec3& j) {
 }
 
 double ship_response(const ShipResponse& ship, const Vec3& arm, const Vec3& direction) {
-    // k(d) of section 14, d . (M + A)^-1 d + (r x d) . (I + A')^-1 (r x d)
+    // k(d) of section 13, d . (M + A)^-1 d + (r x d) . (I + A')^-1 (r x d)
     const Vec3 turn = arm.cross(direction);
     return direction.dot(ship.inverse_mass * direction) + turn.dot(ship.inverse_inertia * turn);
 }
@@ -133,8 +133,8 @@ void WarmStart::recall(const std::vector<Contact>& contacts,
         if (found == last || found->key != contact.key) continue;
         Constraint& c = constraints[k];
         if (!c.can_move) continue;
-        // The rest stage has what the impact left of the bound (13), and the plane and the cone
-        // of today's normal: the first guess satisfies bounds and friction law.
+        // The rest stage may use the part of the bound (13) that the impact left. With the plane
+        // and the cone of the present normal the first guess satisfies bounds and friction law.
         c.rest_normal = std::min(found->normal, std::max(c.max_impulse - c.impact_normal, 0.0));
         if (c.rest_normal <= 0.0) continue;
         c.rest_tangent = found->tangent - found->tangent.dot(c.normal) * c.normal;

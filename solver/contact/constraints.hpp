@@ -70,7 +70,7 @@ inline Vec3 relative_velocity(const Bodies& bodies, const Constraint& c) {
 /// Gives impulse j [N s] to b and -j to a: velocities and angular velocities change.
 void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j);
 
-/// The ship's part of it, for a ship that answers: -j [N s] at its arm. @pre c.a is the ship
+/// The ship's part of it, for a free ship: -j [N s] at its arm. @pre c.a is the ship
 void push_ship(Bodies& bodies, const Constraint& c, const Vec3& j);
 
 /// d . K d of the ship alone for a unit vector d: its k(d) at a point [1/kg]; 0 for a ship on a

@@ -74,7 +74,8 @@ void ContactRows::find_pairs(const Bodies& bodies, const std::vector<Constraint>
     set_copies(bodies);
 }
 
-// A ship that only turns answers shifts as a free one would: copies must answer something.
+// A ship that only turns has no inverse mass. Its copies take least_response instead, as in the
+// position correction.
 void ContactRows::set_copies(const Bodies& bodies) {
     // n copies, each with 1/n of the mass, respond n times as much as the ship.
     const double copies = static_cast<double>(copies_.size());
@@ -179,7 +180,7 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
         const std::size_t a = body(pair.a), b = body(pair.b);
         block.a[lane] = pair.a;
         block.b[lane] = pair.b;
-        // of a ship that answers each pair has a lighter copy
+        // of a free ship each pair has a lighter copy
         const bool copy = a == kShip && !copies_.empty();
         const Mat3& inertia_a = copy ? copy_inverse_inertia_ : bodies.inverse_inertia_world[a];
         block.inverse_mass_a.v[lane] = copy ? copy_inverse_mass_ : bodies.inverse_mass[a];

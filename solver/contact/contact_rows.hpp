@@ -75,7 +75,7 @@ struct alignas(64) BodyMotion {
 /// bodies has yet, and the blocks of a colour hold pairs of about as many contacts. So the order of
 /// the sweeps depends on which bodies touch at how many points, and on nothing else.
 ///
-/// A ship that answers would couple all its contacts. Instead each of its n pairs has a copy of it,
+/// A free ship would couple all its contacts. Instead each of its n pairs has a copy of it,
 /// n times as light (mass splitting: Tonge, Benevolenski, Voroshilov, ACM TOG 31(4), 2012), and
 /// after a sweep join_ship() makes one of them again. In a sweep every copy has one inverse mass
 /// for all directions, n times the ship's largest. At the fixed point no copy changes, so the
@@ -122,7 +122,7 @@ public:
     /// gives all copies its motion.
     void join_ship();
 
-    /// Bodies that take part, by local number; a ship that answers once for each of its pairs.
+    /// Bodies that take part, by local number; a free ship once for each of its pairs.
     const std::vector<std::int32_t>& bodies() const { return bodies_; }
     /// Local number of a body; -1 for bodies that do not take part.
     std::int32_t local_of(std::int32_t body) const {
@@ -157,7 +157,7 @@ private:
     std::vector<std::uint64_t> used_colours_;  // by local number
     std::vector<std::int32_t> slot_;           // by row of which_: kLanes row + lane, or -1
 
-    std::vector<std::int32_t> copies_;  // of a ship that answers, local numbers; else none
+    std::vector<std::int32_t> copies_;  // of a free ship, local numbers; else none
     double copy_inverse_mass_ = 0.0;    // [1/kg]
     Mat3 copy_inverse_inertia_ = Mat3::Zero();
     Mat3 inverse_mass_ = Mat3::Zero();  // of the ship

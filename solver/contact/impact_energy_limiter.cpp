@@ -169,7 +169,7 @@ void ImpactEnergyLimiter::limit_rebound(Bodies& bodies, const ContactRows& conta
     if (bodies.ship.free) mix_ship(bodies, contacts, constraints);
 }
 
-// The ship belongs to no island: its motion is what the impulses of all make of it.
+// The ship belongs to no island: the impulses of all islands act on it.
 void ImpactEnergyLimiter::mix_ship(Bodies& bodies, const ContactRows& contacts,
                                    const std::vector<Constraint>& constraints) const {
     if (contacts.local_of(static_cast<std::int32_t>(kShip)) < 0) return;

@@ -27,7 +27,7 @@ public:
     double energy_gain(const Bodies& bodies, const ContactRows& contacts,
                        const std::vector<Constraint>& constraints);
 
-    /// Remembers the solution with rebound and goes back to the beginning.
+    /// Keeps the solution with rebound and restores the start.
     void set_aside(Bodies& bodies, const ContactRows& contacts,
                    std::vector<Constraint>& constraints);
 
@@ -39,8 +39,8 @@ public:
     ///
     ///     J = J_plastic + s (J_rebound - J_plastic),   s in [0, 1] the largest with gain <= 0.
     ///
-    /// Islands meet at the ship only, also where it answers: there the mixture is one to the order
-    /// of the floes' mass over the ship's.
+    /// Islands meet at the ship only. If it is free, the mixture is one to the
+    /// order of the floes' mass over the ship's.
     ///
     /// On entry bodies and constraints hold the solution without rebound, on return the mixture.
     /// @pre set_aside was called with the other one

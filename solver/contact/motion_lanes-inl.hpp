@@ -40,6 +40,7 @@ HWY_INLINE void Transpose([[maybe_unused]] Lanes* rows) {
 #if HWY_TARGET != HWY_SCALAR
     [[maybe_unused]] const Tag d;
     if constexpr (kMostLanes > 1) TransposeTwos(rows);
+    // four lanes have two blocks of two numbers, eight have four
     if constexpr (kMostLanes == 4)
         for (std::size_t k = 0; k < 2; ++k) {
             const Lanes upper = hn::ConcatUpperUpper(d, rows[k + 2], rows[k]);

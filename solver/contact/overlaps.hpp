@@ -23,13 +23,13 @@ struct PositionCorrections {
     std::vector<Vec3> turn;   ///< by body, rotation vector in world axes [rad]
 };
 
-/// Extends a move by what it lacks of `length` [m] along a unit direction: of several pushes on one
-/// sphere each adds only what the others do not already do along it.
+/// Extends a move to at least `length` [m] along a unit direction. A second push on a sphere
+/// extends the move only where the first is shorter along its direction.
 inline void add_along(double length, const Vec3& direction, Vec3& move) {
     move += std::max(0.0, length - move.dot(direction)) * direction;
 }
 
-/// Takes care of overlaps; keeps its memory between steps, and nothing else.
+/// Opens or crushes overlaps. Between steps it keeps its memory and nothing else.
 class Overlaps {
 public:
     /// Moves overlapping bodies apart by a part of the overlap that this step's velocities leave
@@ -41,7 +41,7 @@ public:
     /// deep pair thus opens at five radii R a second; with longer ones a tenth of a radius in each
     /// step, which is slower.
     ///
-    /// Contacts at their bound are left alone: that ice is gone. A ship that answers moves by its
+    /// Contacts at their bound are left out: that ice is crushed. A free ship moves by its
     /// share, of its mass and the water's that moves along; one on a prescribed course does not
     /// move.
     /// @param dt   time step [s]
@@ -51,8 +51,8 @@ public:
                            double dt, PositionCorrections& out);
 
     /// Ice at its bound is crushed: the overlap that the step leaves at such a contact is taken off
-    /// the ice for good. Of several contacts that press on one sphere, each adds what the others do
-    /// not already take along its normal. Rigid ice has no bound.
+    /// the ice for good. A second contact that presses on a sphere extends the move only
+    /// where the first is shorter along its normal. Rigid ice has no bound.
     /// @param dt  time step [s]
     /// @pre called before the poses advance, after resolve_rest, with the constraints' law and dt
     void crush(Scene& scene, const std::vector<Contact>& contacts,
@@ -64,7 +64,7 @@ private:
         double target, done;    // move along the normal [m]; impulse so far [kg m]
         Vec3 turn_a, turn_b;    // by a unit push: I^-1 (r x n) [rad/(kg m)]
         double effective_mass;  // 1 / k(n) [kg]
-        Vec3 ship_shift;        // by a unit push, of a ship that answers [1/kg]
+        Vec3 ship_shift;        // by a unit push, of a free ship [1/kg]
     };
     // @param target  move along the normal [m]
     static Push push_of(const Bodies& bodies, const Constraint& c, std::size_t row, double target);

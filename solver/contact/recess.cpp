@@ -82,8 +82,8 @@ void Recess::find_moves(const Scene& scene, double dt, const std::vector<Contact
     moves_.clear();
     std::size_t at = 0;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
-        // (13a): what has become deeper since the last step, less what the motion explains, at
-        // most down to the deepest neighbour. Without crushed ice around there is no recess.
+        // (13a): the increase of depth since the last step, less the part that the motion
+        // explains, at most down to the deepest neighbour. Whole ice has no recess.
         const Contact& c = contacts[k];
         const Place place = place_of(c);
         const double deeper = -c.gap - last_depth(c, at);
@@ -100,7 +100,7 @@ void Recess::find_moves(const Scene& scene, double dt, const std::vector<Contact
                std::tie(r.place.body, r.place.sphere, r.contact);
     });
     std::size_t kept = 0;
-    // A second contact adds to the move only what the first one does not already do along it.
+    // A second contact extends the move only where the first is shorter along its direction.
     for (const Move& m : moves_) {
         if (kept > 0 && moves_[kept - 1].place == m.place) {
             add_along(m.shift.norm(), m.shift.normalized(), moves_[kept - 1].shift);
@@ -117,7 +117,7 @@ void Recess::move_spheres(Scene& scene, const ContactLaw& law, double dt,
     scene.crushed.recent.clear();
     if (law.is_rigid()) return;
     moves_.clear();
-    // the first step knows no depths of a step before
+    // the first step has no depths of an earlier step
     if (started_ != 0) find_moves(scene, dt, contacts, constraints);
     for (const Move& m : moves_) {
         const auto shape = static_cast<std::size_t>(scene.bodies.shape[m.place.body]);
@@ -125,7 +125,7 @@ void Recess::move_spheres(Scene& scene, const ContactLaw& law, double dt,
                             m.shift);
     }
     // The contacts were found before their spheres moved: without this the step would push at an
-    // overlap that is gone.
+    // overlap that no longer exists.
     for (std::size_t k = 0; k < contacts.size() && !moves_.empty(); ++k) {
         const Place place = place_of(contacts[k]);
         const auto move =

@@ -35,7 +35,7 @@ public:
     void move_spheres(Scene& scene, const ContactLaw& law, double dt,
                       std::vector<Contact>& contacts, std::vector<Constraint>& constraints);
 
-    /// These bodies have another form now: contacts with them have no past in the coming step, so
+    /// These bodies have another shape now: contacts with them have no past in the coming step, so
     /// that none of their spheres moves.
     /// @pre sorted
     void forget(const std::vector<std::int32_t>& bodies);

@@ -9,13 +9,13 @@
 
 namespace ice {
 
-/// Inverse inertias of a block's bodies in world axes, all nine entries row by row [1/(kg m2)]: a
-/// sweep takes the upper half of what rounding has left not quite symmetric.
+/// Inverse inertias of a block's bodies in world axes, all nine entries row by row [1/(kg m2)].
+/// Rounding leaves them not quite symmetric; a sweep uses the upper half.
 struct BlockInverseInertias {
     std::array<LaneValues, 9> a{}, b{};
 };
 
-/// Measures what the contacts of a block respond to impulses, from normal, arm_a and arm_b: sets
+/// Measures the responses of a block's contacts to impulses, from normal, arm_a and arm_b: sets
 /// response, the effective masses and their inverses. With K of response_matrix
 ///
 ///     k(n) = n . K n,   largest k(t) = greater eigenvalue of K in the tangent plane

@@ -33,7 +33,7 @@ HWY_INLINE void Put(Lanes value, LaneValues& to, std::size_t lane) {
 }
 
 // Lanes of N streams of contacts. A contact takes a chain of operations in which each one waits
-// for the last, longer than the machine looks ahead: streams' operations have to stand beside each
+// for the last, longer than the machine's window: streams' operations have to be beside each
 // other, so that one computes while the others wait.
 template <std::size_t N>
 struct Wide {

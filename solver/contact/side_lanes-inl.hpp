@@ -73,7 +73,7 @@ struct Side {
     }
 };
 
-// @param excess  looked at with kWater only
+// @param excess  used with kWater only
 template <bool kWater>
 HWY_INLINE Side<1, kWater> LoadSide(const std::array<std::int32_t, kLanes>& body,
                                     const std::vector<BodyMotion>& motion, const LaneValues& mass,

@@ -18,14 +18,14 @@ namespace ice {
 
 namespace {
 
-// Solutions with rebound at most [-]; the second one is for contacts that crush by another's
-// rebound. Contacts that only this one brings to their bound keep what rebound it leaves them. Each
-// more costs a solution; decided in each sweep instead, two answers took turns and most steps did
-// not converge (docs/design-notes.md).
+// Solutions with rebound at most [-]. The second one is for contacts that crush by another's
+// rebound; contacts that reach their bound only in this one keep its rebound. Another one would
+// cost a further solution. Where each sweep decided, two results alternated and most steps did not
+// converge (docs/design-notes.md).
 constexpr int kRebounds = 2;
 
-// The last third of the iterations is plain sweeps: they end near the answer also where the
-// accelerated ones go round it. A larger divisor [-] leaves fewer plain sweeps; only solutions that
+// The last third of the iterations is plain sweeps: they end near the solution also where the
+// accelerated ones circle it. A larger divisor [-] leaves fewer plain sweeps; only solutions that
 // take many iterations reach them.
 constexpr int kPlainShare = 3;
 
@@ -34,16 +34,16 @@ constexpr int kPlainShare = 3;
 // 1.07 to 1.14; twice as much takes a fifth more contacts.
 constexpr double kNear = 1e-4;
 
-// Rest solutions at most [-]: each adds the contacts that the last one closed; what is left becomes
-// overlap. Fewer leave more steps unconverged; a step with more than two is rare.
+// Rest solutions at most [-]: each adds the contacts that the last one closed; closing that is left
+// becomes overlap. Fewer leave more steps unconverged; a step with more than two is rare.
 constexpr int kRestSolutions = 5;
 
 bool meets_within_step(const Constraint& c, double dt) {
     return c.gap + dt * std::min(c.approach, 0.0) <= 0.0;
 }
 
-// The ship and held ice where no impulse moves either along the normal: the ice is crushed. A ship
-// that can move in other directions is rubbed, by no more than what ends the sliding.
+// The ship and held ice, if no impulse moves either of them along the normal: the ice is crushed.
+// On a ship that is free in other directions friction acts, at most as much as ends the sliding.
 void drive_through(Bodies& bodies, Constraint& c) {
     // friction opposite the sliding velocity, on the cone: mu times the bound
     const Vec3 v = relative_velocity(bodies, c);
@@ -51,7 +51,7 @@ void drive_through(Bodies& bodies, Constraint& c) {
     const double speed = sliding.norm();
     c.impact_normal = c.max_impulse;
     if (speed > 0.0) c.impact_tangent = -(c.friction * c.max_impulse / speed) * sliding;
-    // A ship that answers in some direction is slowed down by the friction, not turned round.
+    // Friction slows a ship that is free along the sliding; it does not reverse its motion.
     if (c.a != static_cast<std::int32_t>(kShip) || !bodies.ship.free || speed == 0.0) return;
     const double inverse_effective_mass = ship_response(bodies.ship, c.arm_a, sliding / speed);
     if (inverse_effective_mass * c.friction * c.max_impulse > speed)
@@ -79,7 +79,7 @@ SolveReport ContactSolver::iterate(const ContactLaw& law) {
     gradient_.begin(contacts_, !law.is_rigid());
     while (true) {
         ++report.iterations;
-        // A free ship is solved as copies, one per pair (section 14), which become one ship
+        // A free ship is solved as copies, one per pair (section 13), which become one ship
         // again after each sweep; one on a prescribed course is not touched.
         contacts_.part_ship();
         report.residual =
@@ -110,7 +110,7 @@ SolveReport ContactSolver::solve_impacts(Bodies& bodies, std::vector<Constraint>
 
 // Newton's restitution, but none where the ice crushes. Which contacts crush is known once the
 // bodies have stopped, and again once others rebounded: a contact once crushed stays so, or the two
-// answers would take turns.
+// results would alternate.
 SolveReport ContactSolver::rebound(Bodies& bodies, std::vector<Constraint>& constraints,
                                    const ContactLaw& law) {
     if (law.is_rigid()) return solve_impacts(bodies, constraints, law, law.restitution);
@@ -172,7 +172,7 @@ bool ContactSolver::enlist(const Bodies& bodies, const std::vector<Constraint>& 
         if (closes >= -kNear || c.rest_normal > 0.0)
             active_.push_back(static_cast<std::int32_t>(k));
     }
-    // Nothing of the others closes by more than the tolerance: the last solution stands.
+    // No other contact closes by more than the tolerance: the last solution is the result.
     if (before > 0 && most <= tolerance * dt) {
         active_.resize(before);
         return false;
@@ -199,12 +199,14 @@ void ContactSolver::begin_rest_with_guess(Bodies& bodies, std::vector<Constraint
     velocities_.clear();
     for (const std::int32_t body : contacts_.bodies())
         velocities_.emplace_back(bodies.velocity[body], bodies.angular_velocity[body]);
+    // the guess of the last step enters the rows' motions through the bodies' velocities
     for (const std::int32_t k : active_) {
         const Constraint& c = constraints[k];
         if (c.rest_normal > 0.0)
             apply_impulse(bodies, c, c.rest_normal * c.normal + c.rest_tangent);
     }
     begin_rest(bodies, constraints, dt);
+    // the bodies themselves keep their velocities; end_stage() applies the whole impulse once
     for (std::size_t k = 0; k < velocities_.size(); ++k) {
         const std::int32_t body = contacts_.bodies()[k];
         std::tie(bodies.velocity[body], bodies.angular_velocity[body]) = velocities_[k];
@@ -221,6 +223,9 @@ SolveReport ContactSolver::resolve_rest(Bodies& bodies, std::vector<Constraint>&
     active_.clear();
     is_active_.assign(constraints.size(), 0);
     SolveReport report;
+    // A solution may close contacts that did not take part: they are added and all are solved
+    // again, at most five times. Only the first solution has a guess; later ones start from the
+    // impulses of the one before.
     for (int solution = 0; solution < kRestSolutions; ++solution) {
         if (!enlist(bodies, constraints, law.tolerance, dt)) return report;
         contacts_.build(bodies, constraints, active_);

@@ -41,7 +41,7 @@ constexpr double kStepShare = 0.2;
 // smaller value uses less of the field.
 constexpr double kFieldShare = 0.95;
 // Travel in ship's lengths [-] below which no case is drafted. A larger value refuses more fields,
-// a smaller one drafts runs whose means say little.
+// a smaller one drafts runs whose means are uncertain.
 constexpr double kShortestTravel = 0.1;
 
 // The number rounded to a count of digits.
@@ -86,8 +86,8 @@ void guess_draught(const TriangleMesh& hull, Draft& draft) {
     Eigen::AlignedBox3d box;
     for (const Vec3& v : hull.vertices) box.extend(v);
     const double keel = box.min().z(), depth = box.sizes().z();
-    // A mesh whose z = 0 lies well within its depth has its water line there; another one says
-    // nothing of its draught.
+    // A mesh whose z = 0 lies well within its depth has its water line there; of
+    // another one the draught is unknown.
     draft.draught_from_mesh = -keel > 0.05 * depth && -keel < 0.95 * depth;
     draft.draught = rounded(draft.draught_from_mesh ? -keel : kDraughtShare * depth, 3);
 }
@@ -105,8 +105,9 @@ void place_ship(World& w, Draft& draft) {
                         "use a field with ice at the hull's height, across its centre line");
     const double gap = 2.0 * w.scene.shapes[0].spacing;
     draft.x = std::floor(100.0 * (place.x() + course.clearance - gap)) / 100.0;
-    const double step = rounded(0.01 * ship.sizes().y(), 1);  // no digits nobody means
-    draft.y = step * std::round(place.y() / step) + 0.0;      // no -0
+    const double step =
+        rounded(0.01 * ship.sizes().y(), 1);  // a hundredth of the breadth is exact enough
+    draft.y = step * std::round(place.y() / step) + 0.0;  // no -0
     place.x() = draft.x;
     place.y() = draft.y;
 }
@@ -161,7 +162,7 @@ void plan_sheet(const World& w, Draft& draft) {
 Draft draft_case(const std::filesystem::path& hull, const std::filesystem::path& field) {
     Draft draft;
     guess_draught(read_spheres(hull).mesh, draft);
-    // a scene with the guessed draught tells water line, clearances and room; the rest follows
+    // water line, clearances and room are measured on a scene with the guessed draught
     World world;
     world.parameters = first_case(hull, field);
     world.parameters.hull_draught = draft.draught;

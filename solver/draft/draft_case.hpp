@@ -35,8 +35,8 @@ inline constexpr double kFieldLengths = 2.5;
 /// - Travel: 2.2 lengths of the waterline in the ice, or the length of the field. Averages begin
 ///   after the first length in the ice; in a shorter field they are those of the last length, or of
 ///   the last two thirds.
-/// - Time step: in it the ship goes a fifth of the smallest sphere's radius, rounded down to 1, 2
-///   or 5 of a decade.
+/// - Time step: the ship moves by a fifth of the smallest sphere's radius in it, rounded down to 1,
+///   2 or 5 of a decade.
 /// @throws Error (exit code 2) for a field that is too short to be entered, and what building a
 ///         scene throws
 Draft draft_case(const std::filesystem::path& hull, const std::filesystem::path& field);

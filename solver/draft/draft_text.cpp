@@ -58,7 +58,7 @@ std::string draft_text(const Draft& d, const std::string& hull, const std::strin
                 fmt::format("m/s, CHECK: {:.2g} kn", d.speed / kKnot));
     out += "\n[ice]\n" + line("density = 900.0", "kg/m3, CHECK");
     out += fmt::format("\n[[floes]]\npattern = \"file\"\nfile = {}\n", quoted(field));
-    // the sheet stands in comments, as the other choice
+    // the sheet is in comments, as the other choice
     out +=
         line("hold = \"never\"", "broken ice; \"until-hull-contact\" where the bow breaks it off");
     out += "# Unbroken ice, which the bow breaks: these tables in the place of [[floes]].\n";

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 // mkdtemp() wants six of them at the end
 const std::string kScratchName = "icesolve-" + std::string(6, 'X');
 
-// A folder of its own that goes with the object.
+// A temporary folder, removed by the destructor.
 class ScratchFolder {
 public:
     ScratchFolder() {
@@ -44,7 +44,7 @@ private:
 void draw_start(const World& w, const fs::path& picture) {
     check_picture_name(picture);
     const ScratchFolder folder;
-    // A run of no step: its folder has all that icepost needs to draw, and goes afterwards.
+    // A run of no step: its folder has all that icepost needs to draw, and is removed afterwards.
     Recorder recorder(w.parameters, w.scene);
     recorder.open(folder.path(), "icesolve --check", w.scene);
     Summary unused;

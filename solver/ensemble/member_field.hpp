@@ -13,11 +13,11 @@
 namespace ice {
 
 /// The field files of a case, made anew with the seeds of an ensemble: icefield is run with the
-/// specification that each field file holds.
+/// specification in each field file.
 ///
-/// A file is left alone, for all members alike, where it holds no specification, where icefield
-/// cannot make it again (e.g. polygons whose file lies elsewhere; said as a warning), and where the
-/// seed changes nothing, as in brick patterns: two seeds are tried.
+/// A file is kept, for all members alike, if it contains no specification, if icefield cannot make
+/// it again (e.g. polygons whose file lies elsewhere; a warning names it), and if the seed changes
+/// nothing, as in brick patterns: two seeds are tried.
 class MemberFields {
 public:
     /// @param first   seed of the first member; it and the next one are tried

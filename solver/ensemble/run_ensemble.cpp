@@ -30,8 +30,8 @@ namespace fs = std::filesystem;
 constexpr double kJitter = 0.01;
 
 // Where no field changes with the seed and the case moves no floe, jitter makes the difference.
-// So little leaves the field as it is; but the motion is chaotic, and after a few impacts the
-// histories differ.
+// It is too small to change the field, but the motion is chaotic: after a few impacts the histories
+// differ.
 double default_jitter(const Case& parameters) {
     const Scene scene = build_scene(parameters);
     double smallest = std::numeric_limits<double>::infinity();

@@ -23,6 +23,7 @@ void set_residual(Flow& flow, const std::vector<Element>& elements, const Size& 
     const std::vector<FlowSample> samples = flow_at(flow, points);
     double squares = 0.0, sizes = 0.0, net = 0.0, all = 0.0;
     for (std::size_t j = 0; j < elements.size(); ++j) {
+        // the body's normal velocity, less the water's: zero where no water passes through
         const double size = size_of(elements[j]);
         for (std::size_t q = 3 * j; q < 3 * j + 3; ++q) {
             const double off = std::abs((samples[q].velocity - direction).dot(elements[j].normal));

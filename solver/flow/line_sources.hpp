@@ -35,9 +35,9 @@ struct LineFlow {
 /// @throws Error (exit code 2) where nothing is wet
 std::vector<SourceLine> make_wetted_lines(const TriangleMesh& prism, double water, double longest);
 
-/// Strengths with which no water goes through the section: the mean of v . n over each line, taken
-/// at the two points of Gauss's rule, is that of the motion. Eigen's BiCGSTAB, as solve_panels().
-/// The matrix is stored whole: 8 n^2 bytes for n lines.
+/// Strengths with which no water passes through the section: the mean of v . n over each line,
+/// taken at the two points of Gauss's rule, is that of the motion. Eigen's BiCGSTAB, as
+/// solve_panels(). The matrix is stored whole: 8 n^2 bytes for n lines.
 /// @throws Error (exit code 1) where the solver does not settle
 LineFlow solve_lines(std::vector<SourceLine> lines);
 

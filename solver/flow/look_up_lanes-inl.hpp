@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One look into a table, its four numbers in lanes; look_up_flow_reference.cpp has the mathematics.
-// Included once per instruction set, hence the guard that lets it in again for each. Mul then Add,
-// not MulAdd: a fused product would differ from it.
+// One look-up in a table, its four numbers in lanes; look_up_flow_reference.cpp has the
+// mathematics. Included once per instruction set, hence the guard that lets it in again for each.
+// Mul then Add, not MulAdd: a fused product would differ from it.
 #if defined(ICE_LOOK_UP_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ICE_LOOK_UP_LANES_INL
 #undef ICE_LOOK_UP_LANES_INL

@@ -57,8 +57,8 @@ Eigen::MatrixXd influence(const PanelBody& body) {
     return out;
 }
 
-// At other points than those of the solution: there the residual is only that of the iteration, and
-// says nothing of the panels.
+// At other points than those of the solution: there the residual is only that of the iteration, not
+// that of the panels.
 void check_flow(const Vec3& direction, PanelFlow& flow) {
     std::vector<Vec3> points;
     for (const SourcePanel& p : flow.body.panels)

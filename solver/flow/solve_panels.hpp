@@ -22,7 +22,7 @@ struct PanelFlow {
 };
 
 /// Solves for strengths with which the mean of v . n over each panel is that of direction . n, the
-/// mean taken at flux_points(): no water goes through the hull (Hess and Smith, 1967; equation
+/// mean taken at flux_points(): no water passes through the hull (Hess and Smith, 1967; equation
 /// (22)). Eigen's BiCGSTAB (van der Vorst, SIAM Journal on Scientific and Statistical Computing
 /// 13(2), 1992) to 1e-10, 20 iterations or fewer for hulls. Of a symmetric body only motion in the
 /// plane y = 0, and at z = 0 only motion along the water, have such panels' images.
@@ -30,7 +30,7 @@ struct PanelFlow {
 /// @throws Error (exit code 1) where the solver does not settle: thin plates, panels that cross
 PanelFlow solve_panels(PanelBody body, const Vec3& direction = Vec3::UnitX());
 
-/// Strengths [m/s] with which the mean of v . n over each panel is what is wanted: a column for
+/// Strengths [m/s] with which the mean of v . n over each panel has the wanted value: a column for
 /// each right-hand side. As solve_panels(), whose right-hand side is direction . n.
 /// @param wanted      a row for each panel [m/s]
 /// @param iterations  of the linear solver for the last column; may be null

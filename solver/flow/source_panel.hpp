@@ -47,8 +47,8 @@ struct PanelBody {
 /// larger step takes that much off the limit; a smaller one comes near the rounding of the place.
 constexpr double kOffPanel = 1e-6;
 
-/// The three points whose mean stands for the mean over the panel, exactly for what is quadratic
-/// in place [m], in barycentric coordinates (2/3, 1/6, 1/6), off the panel by kOffPanel.
+/// Three points [m], in barycentric coordinates (2/3, 1/6, 1/6), off the panel by kOffPanel. The
+/// mean over these three points equals the mean over the panel for quadratic functions.
 std::array<Vec3, 3> flux_points(const SourcePanel& panel);
 
 /// Where the flow can be checked: three other points [m], (1/2, 1/4, 1/4).

@@ -13,7 +13,7 @@ namespace ice {
 ///     v_w(x, t) = c + (U(t) - c_x) grad phi(x - x_ship(t))
 ///
 /// (equation (24)).
-/// The table has no flow of a current athwart the ship: there the water goes through the hull.
+/// The table has no flow of a current athwart the ship: there the water passes through the hull.
 struct WaterFlow {
     FlowGrid grid;
     Vec3 current = Vec3::Zero();  ///< along x and y [m/s]

@@ -25,7 +25,7 @@ constexpr double kSame = 1e-6;
 constexpr double kPanelsAlong = 15.0;
 
 // Triangles smaller than this share [-] of the largest panels allowed add nothing to the flow, but
-// their normals are rounding. Larger would leave holes.
+// their normals are rounding. Larger would leave openings.
 constexpr double kSliver = 1e-9;
 
 // How far the surface of a fine mesh may shift where it is simplified, over its extent [-]: 1 m on
@@ -66,7 +66,7 @@ std::vector<Triangle> cut(const std::vector<Triangle>& from, int axis, double si
     return out;
 }
 
-// Has every vertex another one where the mirror shows it?
+// Has each vertex a mirror image?
 bool is_symmetric(const TriangleMesh& mesh, double same) {
     // sorted by x, so that only vertices of nearly the same x are compared
     std::vector<Vec3> sorted = mesh.vertices;
@@ -82,7 +82,7 @@ bool is_symmetric(const TriangleMesh& mesh, double same) {
     });
 }
 
-// At most `most` triangles, the border left as it is.
+// At most `most` triangles; open edges keep their places.
 std::vector<Triangle> simplified(const std::vector<Triangle>& from, std::size_t most) {
     // meshopt works on floats and indices; corners of the result are the doubles they came from
     std::vector<float> soup;
@@ -156,7 +156,7 @@ void measure(const std::vector<Triangle>& triangles, bool symmetric, WettedHull&
         out.volume += nx * (t[0].x() + t[1].x() + t[2].x()) / 3.0;
     }
     if (symmetric) {
-        // the half that was measured stands for both
+        // the half that was measured represents both
         out.volume *= 2.0;
         const double breadth = box.max().y();
         box.extend(Vec3(box.max().x(), -breadth, box.min().z()));
@@ -220,7 +220,7 @@ TriangleMesh without_regions(const TriangleMesh& mesh, std::span<const std::stri
         if (std::find(known.begin(), known.end(), name) == known.end())
             throw bad_input(fmt::format("region \"{}\"", name), "the hull has none of that name",
                             fmt::format("its regions are {}", fmt::join(known, ", ")));
-    // the hole that is left has no panels: water passes through the plate's place
+    // the opening that is left has no panels: water passes through the plate's place
     TriangleMesh out = mesh;
     out.triangles.clear();
     out.region.clear();

@@ -24,10 +24,10 @@ struct Advance {
 ///
 /// (equations (1) and (18)) with added mass P = (m + R A R^T) v, R of the start (P2),
 ///
-/// and what update_derived makes of that. Where w has not changed L stays bit for bit, so that
+/// and updates what update_derived() derives. If w has not changed, L keeps its bits, so that
 /// torque-free motion conserves it.
 /// @param floes  numbers of floes that are not held, ascending; none changes nothing
-/// @pre what update_derived makes of their poses
+/// @pre update_derived() was called with the present poses
 void advance_floes(Bodies& bodies, std::span<const std::int32_t> floes, const Advance& step);
 
 namespace reference {

@@ -16,7 +16,7 @@ void advance(Bodies& b, std::size_t i, const Advance& step) {
     // its bits.
     b.momentum[i] = b.mass[i] * b.velocity[i];
     if (b.have_added_mass())
-        b.momentum[i] += ordered_turned(b.rotation[i], b.inertias_of(i).added, b.velocity[i]);
+        b.momentum[i] += ordered_turned(b.rotation[i], b.inertia_row_of(i).added, b.velocity[i]);
     if (!change.isZero(0.0))
         b.angular_momentum[i] += ordered_turned(b.rotation[i], b.inertia(i), change);
 

@@ -46,6 +46,8 @@ struct ExponentialMap {
         const Vectors half = Scale(All(0.5), angle);
         const Lanes x2 = Dot(half, half);
         beyond = hn::Or(beyond, hn::Gt(x2, All(kRotationSeries.kLargest)));
+        // Horner's scheme. Lanes of small angles need the first terms only: they begin with these,
+        // so that their bits do not depend on the other lanes.
         Lanes sinc = one, cosine = one;
         const auto add_term = [&](std::size_t k) HWY_ATTR {
             sinc = hn::Sub(one, hn::Mul(hn::Mul(x2, All(kRotationSeries.of_sinc[k])), sinc));

@@ -101,7 +101,7 @@ std::vector<Part> opened(Part part) {
     for (const Vec2& p : part.outer) box.extend(p);
     for (const Vec2& p : part.holes[0]) hole.extend(p);
     // two halves, left and right of the hole's middle, each without that hole
-    // The cut goes through the hole, so each half has one hole less: the recursion ends.
+    // The cut passes through the hole, so each half has one hole less: the recursion ends.
     Eigen::AlignedBox2d low = box, high = box;
     low.max().x() = high.min().x() = hole.center().x();
     const std::vector<Loop> loops = all_loops({std::move(part)});

@@ -31,7 +31,7 @@ public:
 
     /// Cuts the region `crack` out. Ice in the region breaks off, and so does ice that the cut
     /// separates from the rest of the sheet: the largest part stays, and any of ten times the
-    /// region's area, as the other side of a channel that goes through. Sheet, pieces and brash
+    /// region's area, as the other side of a channel right through the ice. Sheet, pieces and brash
     /// together keep their area. A crack beside the ice breaks nothing off. A ring, as around the
     /// hole of a load inside the ice, breaks across the hole.
     /// @pre crack is simple
@@ -51,7 +51,7 @@ public:
     /// Outer loops anticlockwise, holes clockwise; the first is the largest. Empty once all is
     /// gone.
     const std::vector<Loop>& loops() const { return loops_; }
-    /// Area of the ice, holes left out [m2]; 0 once all is gone.
+    /// Area of the ice, holes left out [m2]; 0 once all is broken.
     double area() const;
     /// Is the point [m] in the ice? Points on the edge may be either.
     bool contains(const Vec2& point) const;

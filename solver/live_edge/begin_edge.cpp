@@ -77,14 +77,14 @@ void LiveEdge::set_up(const Scene& scene, const Case& p) {
 }
 
 void LiveEdge::add_slots(Scene& scene, const Case& p) {
-    // For everything that may lie within reach: pieces of a share of a half disc, and tiles along
-    // the channel's sides and ends.
+    // Slots for the pieces, each of a share of a half disc, and for the tiles along the channel's
+    // sides and ends that the hull can reach.
     const Vec2 size = reach(scene).sizes();
     const double pieces = size.x() * size.y() / (kCover * kHalfDisc * radius_ * radius_);
     const double tiles = kTilesAlong * size.x() / radius_ + kTilesAcross * size.y() / radius_;
     const double half = 0.5 * thickness_;
     const Loop square = loop_of(Box(Vec2(-half, -half), Vec2(half, half)));
-    if (std::optional<Shape> shape = shape_of(square, prism_form(p), is_strip_))
+    if (std::optional<Shape> shape = shape_of(square, prism_spec(p), is_strip_))
         empty_ = std::move(*shape);
     else
         throw bad_input(
@@ -94,7 +94,7 @@ void LiveEdge::add_slots(Scene& scene, const Case& p) {
     const double height = (0.5 - share_) * thickness_;
     first_ = scene.bodies.size();
     slots_.resize(static_cast<std::size_t>(std::ceil(pieces + tiles)));
-    // Each slot is a body with a form of its own from the start: the number of bodies is
+    // Each slot is a body with a shape of its own from the start: the number of bodies is
     // constant, and lists and checkpoints need no new rows.
     for (std::size_t k = 0; k < slots_.size(); ++k) {
         scene.shapes.push_back(empty_);

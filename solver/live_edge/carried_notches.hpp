@@ -22,7 +22,7 @@ namespace ice {
 /// whole.
 class CarriedNotches {
 public:
-    /// Remembers the spheres of a held tile. @pre the tile has its form still
+    /// Remembers the spheres of a held tile. @pre the tile has its shape still
     void take(const Scene& scene, std::int32_t tile);
 
     /// Crushes the spheres of a new body in the place of tiles that were taken. @pre the body has

@@ -27,7 +27,7 @@ IceAreas without_rounding(IceAreas areas) {
 
 namespace {
 
-// The published ranges stand beside the numbers because they are the quickest check of a case:
+// The published ranges are beside the numbers because they are the quickest check of a case:
 // cracks far outside them mean a wrong strength, modulus or thickness.
 std::string describe_strip(const LiveEdge& edge) {
     const IceAreas areas = without_rounding(edge.areas());

@@ -7,7 +7,7 @@
 
 namespace ice {
 
-/// Size of cracks and channel beside published ranges, and where the sheet's area went: one
+/// Size of cracks and channel beside published ranges, and the uses of the sheet's area: one
 /// line each. The ranges are as later papers print them, not read in their sources.
 ///
 /// Crushed ice and brash below 1e-9 of the sheet are rounding, and 0 (without_rounding()).

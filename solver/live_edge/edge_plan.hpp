@@ -24,7 +24,7 @@ struct LiveEdge::Plan {
         Loop outline;
         bool is_tile;
         double load, radius;         // of the crack [N] (2D: N/m), [m]
-        double area;                 // of the part of the sheet that it stands for [m2]
+        double area;                 // of the part of the sheet that it represents [m2]
         std::optional<Shape> shape;  // none: no spheres fit
     };
     std::vector<Body> bodies;

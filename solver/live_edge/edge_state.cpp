@@ -75,7 +75,7 @@ void LiveEdge::carry_pieces(CheckpointFile& file) {
 }
 
 void LiveEdge::carry(CheckpointFile& file) {
-    if (!lives()) return;
+    if (!has_sheet()) return;
     // the sheet, then the ice of each slot, then the cracks that open with the next step
     std::vector<Loop> sheet = sheet_.loops();
     carry_loops(file, "edge.sheet", sheet);

@@ -72,7 +72,7 @@ private:
     }
     std::vector<Loop>& parts(std::int64_t i, std::int64_t j) { return parts_[row(i, j)]; }
 
-    // the sheet's many corners are looked at once for each column, not for each cell
+    // the sheet's many corners are read once for each column, not for each cell
     void fill_column(const IceSheet& sheet, std::int64_t i) {
         const Box box(corner(i, 0), corner(i + 1, count_[1]));
         const IceSheet column = sheet.in_box(box);

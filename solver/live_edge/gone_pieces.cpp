@@ -62,7 +62,7 @@ void GonePieces::open(const std::filesystem::path& folder) {
 
 void GonePieces::add(const IcePiece& piece) {
     ICE_ASSERT(is_open());
-    // written at once: a run that ends by a full disk says so in the step that lost a piece
+    // written at once: a full disk is reported in the step that lost a piece
     std::vector<double> row{static_cast<double>(piece.number),
                             static_cast<double>(piece.body),
                             piece.born,
@@ -106,7 +106,7 @@ void GonePieces::read(std::vector<IcePiece>& out) const {
             piece.outline.emplace_back(corners[c], corners[c + 1]);
         out.push_back(std::move(piece));
     }
-    // the next piece goes to the end
+    // the next piece is appended
     std::fseek(file, 0, SEEK_END);
 }
 

@@ -26,7 +26,7 @@ struct IcePiece {
 /// Pieces that are no longer in the scene, on the disk: a run of any length keeps in memory those
 /// that are.
 ///
-/// They are in a file without a name, which is gone with the program.
+/// They are in a file without a name, which ends with the program.
 class GonePieces {
 public:
     GonePieces() = default;

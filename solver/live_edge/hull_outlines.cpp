@@ -9,7 +9,7 @@ namespace ice {
 
 std::vector<Loop> hull_outlines(const Scene& scene, double top, double bottom) {
     const Bodies& b = scene.bodies;
-    // in the ship's present pose: a ship that answers may be trimmed or heeled
+    // in the ship's present pose: a free ship may be trimmed or heeled
     TriangleMesh hull = scene.shapes[0].mesh;
     for (Vec3& v : hull.vertices) v = b.position[kShip] + b.rotation[kShip] * v;
     std::vector<Loop> out;

@@ -53,9 +53,9 @@ void LiveEdge::lay_tiles(const Scene& scene, Plan& plan) {
 }
 
 void LiveEdge::fill(const Case& p, Plan& plan) const {
-    const PrismForm form = prism_form(p);
+    const PrismSpec prism = prism_spec(p);
     parallel_tasks(plan.bodies.size(), true, [&](std::size_t k) {
-        plan.bodies[k].shape = shape_of(plan.bodies[k].outline, form, is_strip_);
+        plan.bodies[k].shape = shape_of(plan.bodies[k].outline, prism, is_strip_);
     });
 }
 
@@ -88,7 +88,7 @@ void LiveEdge::put(Scene& scene, double time, Plan& plan) {
                            body.radius, centre, slot.outline});
     }
     // Slots that were given up and not filled again are parked far away, without contacts, and with
-    // a small form: an empty body would be a case of its own in every stage.
+    // a small shape: an empty body would be a case of its own in every stage.
     for (const std::int32_t i : plan.changed) {
         const auto body = static_cast<std::size_t>(i);
         if (slots_[body - first_].use != Use::free) continue;
@@ -152,12 +152,12 @@ void LiveEdge::restore(Scene& scene, const Case& p) const {
     std::vector<std::optional<Shape>> shapes(slots_.size());
     parallel_tasks(slots_.size(), true, [&](std::size_t k) {
         if (slots_[k].use != Use::free)
-            shapes[k] = shape_of(slots_[k].outline, prism_form(p), is_strip_);
+            shapes[k] = shape_of(slots_[k].outline, prism_spec(p), is_strip_);
     });
     Bodies& b = scene.bodies;
     for (std::size_t k = 0; k < slots_.size(); ++k) {
         const bool is_piece = slots_[k].use == Use::piece, is_tile = slots_[k].use == Use::tile;
-        put_form(scene, first_ + k, shapes[k] ? std::move(*shapes[k]) : Shape(empty_), density_);
+        put_shape(scene, first_ + k, shapes[k] ? std::move(*shapes[k]) : Shape(empty_), density_);
         if (b.have_added_mass() && is_piece) add_water(scene, first_ + k, density_ / share_);
         b.group[first_ + k] = is_piece ? piece_group_ : tile_group_;
         b.breaking_load[first_ + k] = is_tile ? std::numeric_limits<double>::max() : kNever;

@@ -43,7 +43,7 @@ bool LiveEdge::is_tile(std::int32_t body) const {
 }
 
 // Sheet, tiles and cracks lie in axes that drift with the ice: ice that drifts past a ship then
-// breaks as ice does that a ship goes through.
+// breaks like ice that a ship passes.
 Vec2 LiveEdge::ship_in_ice(const Scene& scene) const {
     return scene.bodies.position[kShip].head<2>() - drifted_;
 }
@@ -109,7 +109,7 @@ Box LiveEdge::reach(const Scene& scene) const {
 
 void LiveEdge::find(const Case& parameters, const std::vector<Contact>& contacts,
                     const std::vector<Constraint>& constraints) {
-    if (!lives()) return;
+    if (!has_sheet()) return;
     // Every contact of a tile is a load (26): the ship's, and those of floes that it pushes.
     loads_.clear();
     for (std::size_t k = 0; k < constraints.size(); ++k) {
@@ -141,7 +141,7 @@ void LiveEdge::find(const Case& parameters, const std::vector<Contact>& contacts
 }
 
 bool LiveEdge::is_due(const Scene& scene) const {
-    if (!lives()) return false;
+    if (!has_sheet()) return false;
     if (!cracks_.empty()) return true;
     // hull and sheet are compared each time the ship has moved by an eighth of a thickness
     return (ship_in_ice(scene) - looked_at_).norm() >= kCrushed * thickness_;
@@ -150,8 +150,8 @@ bool LiveEdge::is_due(const Scene& scene) const {
 bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
     const std::vector<Loop> hull = hull_in_ice(scene);
     looked_at_ = ship_in_ice(scene);
-    // First what the hull has gone through, then the cracks: pieces are cut from the sheet that
-    // is left.
+    // First the ice that the hull has crushed through, then the cracks: pieces are cut from the
+    // sheet that is left.
     bool is_new = crush_through(hull);
     changed_.clear();
     Plan plan;
@@ -186,7 +186,7 @@ void LiveEdge::drop_behind(double x) {
             loop_of({extent_.min() - Vec2(1.0, 1.0), Vec2(x, extent_.max().y() + 1.0)}));
 }
 
-// Removes ice that the hull has gone through at both faces. A strip stays: its spheres store the
+// Removes ice that the hull has crushed through at both faces. A strip stays: its spheres store the
 // crushed depth.
 bool LiveEdge::crush_through(const std::vector<Loop>& hull) {
     if (hull.size() < 2) return false;

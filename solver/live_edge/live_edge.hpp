@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The edge of level ice; the ship breaks pieces off it while it goes (docs/method.md, section 5).
+/// The edge of level ice; the ship breaks pieces off it as it advances (docs/method.md, section 5).
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 #include "solver/case/case.hpp"
 #include "solver/contact/constraints.hpp"
-#include "solver/level_ice/crack_form.hpp"
+#include "solver/level_ice/crack_size.hpp"
 #include "solver/level_ice/ice_sheet.hpp"
 #include "solver/live_edge/edge_window.hpp"
 #include "solver/live_edge/gone_pieces.hpp"
@@ -18,7 +18,7 @@ namespace ice {
 
 class CheckpointFile;
 
-/// Where the area of a sheet has gone [m2]; the five add up to the sheet's at the start.
+/// The uses of a sheet's area [m2]; the five add up to the sheet's at the start.
 struct IceAreas {
     double sheet = 0.0;    ///< unbroken, within reach and ahead
     double pieces = 0.0;   ///< floes that broke off, those far astern too
@@ -38,7 +38,7 @@ struct IceAreas {
 ///
 /// Polygon, tiles and cracks are in the ice's own axes, which drift with it: places in the world
 /// are theirs plus drift() times the time. So ice that drifts past a ship is the same to it as a
-/// ship that goes through ice.
+/// ship in ice.
 ///
 /// In 2D the sheet is a strip (strip.hpp): areas are lengths, per metre of breadth.
 ///
@@ -47,14 +47,14 @@ struct IceAreas {
 class LiveEdge {
 public:
     /// Is there a sheet?
-    bool lives() const { return first_ > 0; }
+    bool has_sheet() const { return first_ > 0; }
 
-    /// Lays the sheet of a case into a scene that has no floes yet, or others; adds the groups of
-    /// its bodies to the case. Ice where the ship is, is taken away.
+    /// Lays the sheet of a case into a scene with or without other floes; adds the groups of its
+    /// bodies to the case. The sheet has no ice where the ship is.
     /// @throws Error (exit code 2) naming level_ice where the hull does not reach the ice's height
     void begin(Scene& scene, Case& parameters);
 
-    /// The ice has drifted for so long [s]; before is_due(), renew() and find() of a step.
+    /// Sets how long the ice has drifted [s]; called before is_due(), renew() and find() of a step.
     void drift_until(double time) { drifted_ = time * drift_; }
     /// Velocity of all the ice [m/s].
     const Vec2& drift() const { return drift_; }
@@ -62,11 +62,11 @@ public:
     /// Does renew() have something to do?
     bool is_due(const Scene& scene) const;
     /// Breaks off the pieces of the last step's cracks, takes away the ice that the hull has
-    /// crushed through, lays the edge anew around a ship that has gone on.
+    /// crushed through, and lays the edge anew around the ship's new place.
     /// @param time  [s]
-    /// @return whether bodies have another form now: those of changed()
+    /// @return whether bodies have another shape now: those of changed()
     bool renew(Scene& scene, const Case& parameters, double time);
-    /// The bodies to which the last renew() gave another form, sorted.
+    /// The bodies to which the last renew() gave another shape, sorted.
     const std::vector<std::int32_t>& changed() const { return changed_; }
 
     /// Sums the loads of the step just done and finds the cracks that they open.
@@ -84,8 +84,8 @@ public:
     double height() const { return (0.5 - share_) * thickness_; }
     double density() const { return density_; }  ///< [kg/m3]
     double length() const { return length_; }    ///< characteristic length of the plate [m]
-    /// Side of the cells of its tiles: how far from a load it cracks at rest [m]; in 2D how far
-    /// from its tip.
+    /// Cell size of the tiles = crack radius at rest [m]; in 2D the length from the tip to the
+    /// crack.
     double radius() const { return radius_; }
     /// Is it a strip, in 2D?
     bool is_strip() const { return is_strip_; }

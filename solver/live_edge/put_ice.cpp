@@ -27,7 +27,7 @@ void make_whole(CrushedIce& crushed, std::int32_t body, std::size_t spheres) {
 
 }  // namespace
 
-void put_form(Scene& scene, std::size_t body, Shape shape, double density) {
+void put_shape(Scene& scene, std::size_t body, Shape shape, double density) {
     Bodies& b = scene.bodies;
     b.mass[body] = density * shape.solid.volume;
     b.inertias[static_cast<std::size_t>(b.inertia_row[body])] = inertia_of(shape, density);
@@ -40,7 +40,7 @@ void put_ice(Scene& scene, std::size_t body, Shape shape, const PutIce& as) {
     make_whole(scene.crushed, static_cast<std::int32_t>(body), old.center.size());
     // afloat at its own draught, without a velocity relative to the ice: no force acts at first
     const double height = floating_height(shape, Mat3::Identity(), as.share);
-    put_form(scene, body, std::move(shape), as.density);
+    put_shape(scene, body, std::move(shape), as.density);
     b.position[body] = {as.at.x(), as.at.y(), height};
     b.orientation[body] = Quaternion::Identity();
     b.momentum[body] = b.mass[body] * Vec3(as.velocity.x(), as.velocity.y(), 0.0);

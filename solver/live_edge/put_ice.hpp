@@ -10,19 +10,19 @@ struct PutIce {
     Eigen::Vector2d at;        ///< of its centre of mass [m]
     Eigen::Vector2d velocity;  ///< [m/s]
     double density;            ///< [kg/m3]
-    double share;              ///< of the form's volume under water [-], > 0, at most 1
+    double share;              ///< of the shape's volume under water [-], > 0, at most 1
     bool held;
 };
 
-/// Gives a body another form and place: afloat level, without spin.
+/// Gives a body another shape and place: afloat level, without spin.
 ///
-/// Its crushed depths are 0 again, its moments of inertia are those of the new form. The body's row
-/// of Scene::shapes and its row of inertias must be its own alone. Bodies::moving is brought up to
-/// date.
+/// Its crushed depths are 0 again, its moments of inertia are those of the new shape. The body's
+/// row of Scene::shapes and its row of inertias must be its own alone. Bodies::moving is brought up
+/// to date.
 void put_ice(Scene& scene, std::size_t body, Shape shape, const PutIce& as);
 
-/// The form alone, of a body whose pose and momenta are known: for a run that is continued.
+/// The shape alone, of a body whose pose and momenta are known: for a run that is continued.
 /// @param density  [kg/m3]
-void put_form(Scene& scene, std::size_t body, Shape shape, double density);
+void put_shape(Scene& scene, std::size_t body, Shape shape, double density);
 
 }  // namespace ice

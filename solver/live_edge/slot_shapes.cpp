@@ -23,21 +23,21 @@ constexpr double kParked = 1000.0;
 
 }  // namespace
 
-PrismForm prism_form(const Case& p) {
+PrismSpec prism_spec(const Case& p) {
     const LevelIce& ice = p.level_ice;
     const double radius = kRadius * ice.thickness;
-    // a corner's disc stands for its radius of both faces: finer discs, finer sections
+    // a corner's disc represents its radius of both faces: finer discs, finer sections
     return {ice.thickness, 0.0, p.dimension == 2 ? std::min(radius, ice.spacing) : radius,
             ice.spacing, true};
 }
 
-std::optional<Shape> shape_of(const Loop& outline, const PrismForm& form, bool is_strip) {
+std::optional<Shape> shape_of(const Loop& outline, const PrismSpec& prism, bool is_strip) {
     Loop centred;
     const Vec2 centre = centroid_of(outline);
     for (const Vec2& p : outline) centred.push_back(p - centre);
     try {
         return build_shape(
-            is_strip ? fill_strip(strip_length(outline), form) : fill_prism(centred, form), true);
+            is_strip ? fill_strip(strip_length(outline), prism) : fill_prism(centred, prism), true);
     } catch (const Error&) {
         return std::nullopt;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The inside of LiveEdge: forms of tiles and pieces, and the places of slots without ice.
+/// The inside of LiveEdge: shapes of tiles and pieces, and the places of slots without ice.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@
 namespace ice {
 
 /// How the ice of a case is filled with spheres.
-PrismForm prism_form(const Case& p);
+PrismSpec prism_spec(const Case& p);
 
 /// About its centroid; none where no sphere fits, or a corner gets none. An Error there is no fault
 /// of the case: such ice is brash.
 /// @param outline  [m]
-std::optional<Shape> shape_of(const Loop& outline, const PrismForm& form, bool is_strip);
+std::optional<Shape> shape_of(const Loop& outline, const PrismSpec& prism, bool is_strip);
 
 /// Is there room for a sphere in ice of that outline [m]? @param thickness  [m]
 bool can_be_filled(const Loop& outline, double thickness);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Floes of one form in lanes, and their drag in an even current, to the bits of
+// Floes of one shape in lanes, and their drag in an even current, to the bits of
 // load_floes_reference.cpp. Included once per instruction set, hence the guard that lets it in
 // again for each. Mul then Add, not MulAdd: a fused product would differ from it.
 #if defined(ICE_AFLOAT_LANES_INL) == defined(HWY_TARGET_TOGGLE)
@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
 
-// Floes of one form and what the loads need of them: heights [m], mass [kg], velocities [m/s],
+// Floes of one shape and what the loads need of them: heights [m], mass [kg], velocities [m/s],
 // [rad/s], one floe per lane.
 struct Afloat {
     const Shape& shape;
@@ -28,15 +28,15 @@ struct Afloat {
     Vectors velocity, angular_velocity;
     FormHeights heights;
 
-    HWY_INLINE Afloat(const Shape& form, const Bodies& b, const BodyLanes& at)
-        : shape(form),
+    HWY_INLINE Afloat(const Shape& of, const Bodies& b, const BodyLanes& at)
+        : shape(of),
           rotation(RotationOf(at.Load(b.orientation))),
           position(at.Load(b.position)),
           height(position.z),
           mass(at.Load(b.mass)),
           velocity(at.Load(b.velocity)),
           angular_velocity(at.Load(b.angular_velocity)),
-          heights(form, Water(rotation.row[2], height)) {}
+          heights(of, Water(rotation.row[2], height)) {}
     HWY_INLINE Mask Clear() const { return hn::Ge(height, All(shape.bounding_radius)); }
 };
 

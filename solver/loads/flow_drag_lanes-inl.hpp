@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Drag on floes of one form in the ship's flow, in lanes as in afloat_lanes-inl.hpp.
+// Drag on floes of one shape in the ship's flow, in lanes as in afloat_lanes-inl.hpp.
 #if defined(ICE_FLOW_DRAG_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ICE_FLOW_DRAG_LANES_INL
 #undef ICE_FLOW_DRAG_LANES_INL

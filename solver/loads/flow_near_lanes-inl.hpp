@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The hull's flow at the places of floes of one form, in lanes as in afloat_lanes-inl.hpp.
+// The hull's flow at the places of floes of one shape, in lanes as in afloat_lanes-inl.hpp.
 #if defined(ICE_FLOW_NEAR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ICE_FLOW_NEAR_LANES_INL
 #undef ICE_FLOW_NEAR_LANES_INL
@@ -40,7 +40,7 @@ HWY_INLINE Vectors WaterAt(const WaterFlow& water, Vectors x) {
     return WaterOf(water, TableFlowAt(water, x));
 }
 
-// The table's values at a form's vertices and, numbered behind them, at the middles of its edges:
+// The table's values at a shape's vertices and, numbered behind them, at the middles of its edges:
 // drag and pressure need each several times. Values beyond the buffer are looked up each time.
 class FlowNear {
 public:
@@ -53,13 +53,13 @@ public:
     }
     HWY_INLINE Vectors At(std::size_t k) const { return k < known_ ? flow_[k] : LookedUp(k); }
     HWY_INLINE Vec3 Point(std::size_t k) const {
-        const Shape& form = floes_.shape;
-        return k < vertices_ ? form.mesh.vertices[k] : form.edges.middle[k - vertices_];
+        const Shape& shape = floes_.shape;
+        return k < vertices_ ? shape.mesh.vertices[k] : shape.edges.middle[k - vertices_];
     }
 
 private:
     // Places that are kept [-], those of some 60 triangles. More take stack of every call; fewer
-    // look up again what was known. The bits are the same.
+    // look up known values again. The bits are the same.
     static constexpr std::size_t kFew = 128;
 
     HWY_INLINE Vectors LookedUp(std::size_t k) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The flow's dynamic pressure on floes of one form, in lanes as in afloat_lanes-inl.hpp.
+// The flow's dynamic pressure on floes of one shape, in lanes as in afloat_lanes-inl.hpp.
 #if defined(ICE_FLOW_PRESSURE_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ICE_FLOW_PRESSURE_LANES_INL
 #undef ICE_FLOW_PRESSURE_LANES_INL

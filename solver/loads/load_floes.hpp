@@ -11,20 +11,20 @@
 namespace ice {
 
 /// Gravity, buoyancy, drag and the flow's pressure on a floe together, and the parts that the
-/// energy ledger tells apart.
+/// energy ledger has apart.
 struct FloeLoad : WaterLoad {
     WaterLoad drag;      ///< its part
     WaterLoad pressure;  ///< the part of the flow's dynamic pressure (flow.pressure)
     WaterLoad applied;   ///< the caller's own part (World::applied_loads)
     /// Moment of the buoyancy [N m], also where the model leaves it out.
     Vec3 righting = Vec3::Zero();
-    double water_power = 0.0;  ///< what moving water puts in: drag times its velocity [W]
+    double water_power = 0.0;  ///< of moving water: drag times its velocity [W]
 };
 
-/// Loads on floes, in their order: (14), (16) or (17), (24), (25), (P1). Floes of one form that
+/// Loads on floes, in their order: (14), (16) or (17), (24), (25), (P1). Floes of one shape that
 /// follow each other cost less. No floes have no loads.
 /// @param floes  numbers of floes that are not held, ascending
-/// @pre what update_derived makes of their poses
+/// @pre update_derived() was called with the present poses
 /// @param out    as many
 void load_floes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,
                 std::span<FloeLoad> out);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Weight, buoyancy, drag and pressure of a floe, section 6: the definition, and the place where a
-// load is added. load_floes_simd.cpp computes the same bits for floes of one form in lanes.
+// load is added. load_floes_simd.cpp computes the same bits for floes of one shape in lanes.
 #include <cmath>
 
 #include "common/math/ordered_products.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loads on floes of one form, as many at a time as the machine has lanes, compiled once per
+// Loads on floes of one shape, as many at a time as the machine has lanes, compiled once per
 // instruction set. The mathematics is in load_floes_reference.cpp, drag.cpp and hydrostatics.cpp.
 // Mul then Add, not MulAdd: a fused product would differ from it.
 #include "solver/loads/load_floes.hpp"
@@ -90,14 +90,14 @@ HWY_INLINE void StoreLoads(const Load& all, const Load& drag, const Load& pressu
     }
 }
 
-// Of no more floes than there are lanes, all of one form.
+// Of no more floes than there are lanes, all of one shape.
 void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> ids,
               std::span<FloeLoad> out) {
     const Tag d;
     const Bodies& b = scene.bodies;
     const BodyLanes at(ids);
-    const auto form = static_cast<std::size_t>(b.shape[static_cast<std::size_t>(ids[0])]);
-    const Afloat floes(scene.shapes[form], b, at);
+    const auto shape = static_cast<std::size_t>(b.shape[static_cast<std::size_t>(ids[0])]);
+    const Afloat floes(scene.shapes[shape], b, at);
     const Matrices inverse_inertia = at.Load(b, &Inertia::inverse);
 
     const Mask flows = InFlow(scene.water, floes);
@@ -141,14 +141,15 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
 
 void LoadFloes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,
                std::span<FloeLoad> out) {
-    const auto form_of = [&](std::size_t k) {
+    const auto shape_of = [&](std::size_t k) {
         return scene.bodies.shape[static_cast<std::size_t>(floes[k])];
     };
-    // Runs of floes of one form: they share the mesh, whose triangles are then read once for
+    // Runs of floes of one shape: they share the mesh, whose triangles are then read once for
     // all.
     for (std::size_t first = 0; first < floes.size();) {
         std::size_t last = first + 1;
-        while (last < floes.size() && last < first + kMostLanes && form_of(last) == form_of(first))
+        while (last < floes.size() && last < first + kMostLanes &&
+               shape_of(last) == shape_of(first))
             ++last;
         const auto some = floes.subspan(first, last - first);
         const auto loads = out.subspan(first, last - first);

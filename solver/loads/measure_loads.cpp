@@ -11,7 +11,7 @@ void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeL
     out.resize(scene.bodies.moving.size());
     for_each_group(scene.bodies, [&](std::span<const std::int32_t> floes, std::size_t first) {
         const auto loads = std::span(out).subspan(first, floes.size());
-        // Floes of one form at a time: the kernel takes eight floes against the same facets. Added
+        // Floes of one shape at a time: the kernel takes eight floes against the same facets. Added
         // mass comes after it, because it needs the force of the flow's pressure.
         load_floes(scene, parameters, floes, loads);
         if (scene.bodies.have_added_mass()) add_water_inertia(scene, parameters, floes, loads);

@@ -11,7 +11,7 @@ void add(const Scene& scene, const Case& p, std::size_t i, FloeLoad& load) {
     const Bodies& b = scene.bodies;
     // (P3), Kirchhoff's equations for a body with added mass A, in world axes. In water at rest the
     // moment is that of Munk, -v x A v.
-    const Mat3 water_mass = ordered_turned(b.rotation[i], b.inertias_of(i).added);
+    const Mat3 water_mass = ordered_turned(b.rotation[i], b.inertia_row_of(i).added);
     const Vec3 &v = b.velocity[i], &spin = b.angular_velocity[i];
     const auto munk = [&](const Vec3& u) { return Vec3(-u.cross(ordered_product(water_mass, u))); };
     load.moment += munk(v);

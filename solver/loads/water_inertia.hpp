@@ -9,7 +9,7 @@
 
 namespace ice {
 
-/// Adds to floes' loads what their added mass A (world axes) has besides its inertia. With the
+/// Adds to floes' loads those of their added mass A (world axes) that are no inertia. With the
 /// velocity through the water u = v - v_w, v_w being the water's at the centre of mass, and the
 /// floe's angular velocity w,
 ///

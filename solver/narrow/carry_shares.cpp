@@ -69,7 +69,7 @@ void carry_shares(const PairView& view, std::vector<double>& carried, std::span<
         const Vec3 n = in_axes_of_a(view, c.normal),
                    m = view.rotation_ab * -view.shape_b.normal[c.sphere_b];
         const double facing = m.dot(n), lean = n.dot(axis);
-        // a share that looks away from the hull or from the axis has no part in the section
+        // a share that faces away from the hull or from the axis has no part in the section
         if (facing <= 0.0 || lean <= 0.0) continue;
         // A (-n_j . s) / (n . s) of docs/method.md, section 3: the share's projection on the
         // separating axis, brought to the contact's normal.

@@ -25,8 +25,8 @@ constexpr double kLeastListShare = 0.6, kMostListShare = 0.8;  // of the ice's r
 // touches; with a larger one pairs are measured a little sooner.
 constexpr double kSeparationRounding = 1e-6;
 
-// How far a sphere of b may have gone relative to one of a since they were listed [m]: two
-// rotations differ by sqrt(8) sin(angle / 2), and a point at 1 goes 2 sin(angle / 2).
+// Largest relative motion of a sphere of b and one of a since they were listed [m]: two rotations
+// differ by sqrt(8) sin(angle / 2), and a point at distance 1 moves by 2 sin(angle / 2).
 double gone_since(const SphereLists::Row& row, const PairView& view, double crushed) {
     return (view.translation_ab - row.translation).norm() + crushed +
            view.shape_b.bounding_radius * (view.rotation_ab - row.rotation).norm() /

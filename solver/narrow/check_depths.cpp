@@ -38,8 +38,8 @@ struct Crossing {
 };
 
 Crossing crossing_of(const PairView& view, const Candidate& c) {
-    // A feature is unbounded along its edges: only the meshes tell whether the two edges still are
-    // there where their lines cross.
+    // A feature is unbounded along its edges: only the meshes show whether the two edges extend to
+    // the crossing of their lines.
     const Vec3 a = view.support_a(c.i, c.gap.normal), b = view.support_b(c.j, -c.gap.normal);
     const Vec3 along_a = view.shape_a.cone[c.i].edge(c.gap.edge_a);
     const Vec3 along_b = view.rotation_ab * view.shape_b.cone[c.j].edge(c.gap.edge_b);
@@ -75,8 +75,8 @@ bool bound_by_meshes(const PairView& view, Candidate& c) {
 }  // namespace
 
 void check_depths(const PairView& view, std::vector<Candidate>& candidates) {
-    // In 3D only (docs/method.md, section 3); of two convex solids the separating axis tells the
-    // depth.
+    // In 3D only (docs/method.md, section 3); of two convex solids the separating axis gives
+    // the depth.
     if (view.shape_a.dimension == 2 || is_convex_pair(view)) return;
     const double slack = deep_slack(view);
     std::erase_if(candidates,

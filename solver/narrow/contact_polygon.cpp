@@ -59,7 +59,7 @@ void clip(const SidePlane& side, double slack, std::uint32_t number, ClippingWor
         const std::size_t next = (k + 1) % polygon.size();
         const bool inside = height[k] <= 0.0;
         // Sutherland and Hodgman: corners inside stay, and an edge across the side plane gives a
-        // new one. From there the outline follows the plane where it goes out, and the same
+        // new one. From there the outline follows the plane where it leaves, and the same
         // edge where it comes in.
         if (inside) rest.push_back(polygon[k]);
         if (inside == (height[next] <= 0.0)) continue;
@@ -245,8 +245,8 @@ void reduce_polygon(std::size_t count, ContactPolygon& polygon) {
     ICE_ASSERT(count > 2);
     std::vector<PolygonCorner>& corners = polygon.corners;
     while (corners.size() > count) {
-        // The deepest corner stays, as it bounds the overlap; of the others the one goes whose
-        // removal costs the least area. Ties are decided by place, mirrored alike, so that a
+        // The deepest corner stays, as it bounds the overlap; of the others the one is dropped
+        // whose removal costs the least area. Ties are decided by place, mirrored alike, so that a
         // mirrored pair keeps mirrored corners.
         std::size_t deepest = 0, least = corners.size();
         for (std::size_t k = 1; k < corners.size(); ++k)

@@ -50,10 +50,10 @@ Eigen::AlignedBox3d box_of_solid(const Side& side) {
 }
 
 bool group_meets(const SphereBlocks& blocks, std::size_t g, const Eigen::AlignedBox3d& box,
-                 double reach) {
+                 double grow) {
     for (int d = 0; d < 3; ++d)
-        if (static_cast<double>(blocks.groups.low[d][g]) - reach > box.max()[d] ||
-            static_cast<double>(blocks.groups.high[d][g]) + reach < box.min()[d])
+        if (static_cast<double>(blocks.groups.low[d][g]) - grow > box.max()[d] ||
+            static_cast<double>(blocks.groups.high[d][g]) + grow < box.min()[d])
             return false;
     return true;
 }
@@ -88,13 +88,13 @@ template <class Visit>
 void for_each_seat(const PairView& view, const Side& side, const Visit& visit) {
     const SphereBlocks& blocks = side.of.blocks;
     const Eigen::AlignedBox3d box = box_of_solid(side);
-    // The groups' boxes hold centres of spheres, as floats and before any crushing. The reach adds
+    // The groups' boxes hold centres of spheres, as floats and before any crushing. The growth adds
     // the radius, at which a seat lies, the crushed depth and the rounding.
-    const double reach = side.of.largest_radius + view.scene.crushed.deepest_of(side.body) +
-                         static_cast<double>(SphereBlocks::kFloatShare * blocks.size);
+    const double grow = side.of.largest_radius + view.scene.crushed.deepest_of(side.body) +
+                        static_cast<double>(SphereBlocks::kFloatShare * blocks.size);
     const bool whole = view.scene.crushed.is_whole(side.body);
     for (std::size_t g = 0; g < blocks.group_count; ++g) {
-        if (!group_meets(blocks, g, box, reach)) continue;
+        if (!group_meets(blocks, g, box, grow)) continue;
         for (std::size_t lane = 0; lane < SphereBlocks::kGroup; ++lane) {
             const std::int32_t k = blocks.id[g * SphereBlocks::kGroup + lane];
             if (k < 0) continue;
@@ -197,8 +197,8 @@ double find_deep_seats(const PairView& view, std::span<const Candidate> found,
     return slack - deepest;
 }
 
-void emit_deep_seats(const PairView& view, const ContactRule& rule, std::span<const DeepSeat> seats,
-                     Contact* out) {
+void make_seat_contacts(const PairView& view, const ContactRule& rule,
+                        std::span<const DeepSeat> seats, Contact* out) {
     const Mat3& rotation = view.scene.bodies.rotation[view.pair.a];
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
     for (const DeepSeat& s : seats) {

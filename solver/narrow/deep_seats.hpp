@@ -44,7 +44,7 @@ double find_deep_seats(const PairView& view, std::span<const Candidate> found,
 
 /// Makes their contacts: the patch is that of the seat, or of the ice that a hull's seat is in.
 /// @param seats  of find_deep_seats(), in their order @param out  room for as many
-void emit_deep_seats(const PairView& view, const ContactRule& rule, std::span<const DeepSeat> seats,
-                     Contact* out);
+void make_seat_contacts(const PairView& view, const ContactRule& rule,
+                        std::span<const DeepSeat> seats, Contact* out);
 
 }  // namespace ice

@@ -15,7 +15,7 @@ namespace ice {
 ///     (f x g) x e = g (f . e) - f (g . e)
 ///
 /// is in the cone of f and g, with either sign, only where f . e and g . e differ in sign: the edge
-/// e goes out of one face and into the other (arcs that cross on the Gauss map). The signs need
+/// e leaves one face and enters the other (arcs that cross on the Gauss map). The signs need
 /// neither the product nor its length, which costs a root and a division.
 class EdgesAcrossFaces {
 public:

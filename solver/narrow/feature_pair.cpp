@@ -28,7 +28,7 @@ AxisChoice choose_axis_rule(const Feature& a, const Feature& b, bool prefer_refe
     if (mean) {
         out.normal = a.normal - b.normal;
         const double length = out.normal.norm();
-        if (length < 1.0 - slack) return out;  // the faces look away
+        if (length < 1.0 - slack) return out;  // the faces are turned away
         out.normal /= length;
     }
     if (belongs(a, out.normal, slack) && belongs(b, -out.normal, slack))

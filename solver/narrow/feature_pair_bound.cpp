@@ -19,8 +19,8 @@ constexpr double kAnyTurn = 4.0;
 }  // namespace
 
 FeaturePairBound::FeaturePairBound(const Feature& a, const Feature& b, bool prefer_reference_a,
-                                   double reach, const Skin& skin)
-    : a_(&a), b_(&b), far_(reach + skin.distance), skin_(skin) {
+                                   double patch_radius, const Skin& skin)
+    : a_(&a), b_(&b), far_(patch_radius + skin.distance), skin_(skin) {
     // All bounds are widened by the skin's angle, so that no spheres are left out that may come to
     // touch. Edge axes are listed when they are first needed.
     const AxisChoice meeting = choose_axis_rule(a, b, prefer_reference_a, skin.angle);

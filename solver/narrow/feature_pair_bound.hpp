@@ -16,17 +16,17 @@ struct Skin {
 
 /// A lower bound of later gaps. While b has moved by at most s <= skin.distance relative to a and
 /// turned by at most skin.angle, measure_gap_surface gives a gap of at least this bound less s, or
-/// no contact within `reach` [m], the larger patch radius. Infinite: no contact is possible; minus
+/// no contact within `patch_radius` [m], the larger one. Infinite: no contact is possible; minus
 /// infinite: there is no bound.
 ///
 /// Face axes are fixed in one of the two bodies, so the gap along them changes by no more than the
 /// motion; the cross product of two edges turns faster, and its bound includes that rotation.
 class FeaturePairBound {
 public:
-    /// @param a, b   one feature of each type, whose centre does not matter; both outlive this
-    /// @param reach  the larger patch radius [m]
-    FeaturePairBound(const Feature& a, const Feature& b, bool prefer_reference_a, double reach,
-                     const Skin& skin);
+    /// @param a, b  one feature of each type, whose centre does not matter; both outlive this
+    /// @param patch_radius  the larger one [m]
+    FeaturePairBound(const Feature& a, const Feature& b, bool prefer_reference_a,
+                     double patch_radius, const Skin& skin);
 
     /// The bound for two spheres of these types [m].
     /// @param center_a, center_b  of the two spheres, in the axes of a and b [m]

@@ -31,9 +31,10 @@ void search_contacts(const PairView& view, double margin, FoundBatch::Pair& pair
     // search in floats, measurement in doubles, meshes for deep ones, then reduction
     const SphereRange range(view, margin);
     pair.spheres.clear();
-    pair.search.for_each_near(view, range.margin, range.reach, [&](std::int32_t i, std::int32_t j) {
-        pair.spheres.push_back({i, j});
-    });
+    pair.search.for_each_near(view, range.margin, range.patch_radius,
+                              [&](std::int32_t i, std::int32_t j) {
+                                  pair.spheres.push_back({i, j});
+                              });
     group_by_types(view, pair.rows, pair.spheres);
     measure_spheres(view, range, pair.spheres, pair.candidates);
     check_depths(view, pair.candidates);
@@ -54,11 +55,11 @@ double find_near(const PairView& view, double margin, const Skin& skin, FoundBat
                  std::vector<SpherePair>& out) {
     const std::size_t first = out.size();
     const SphereRange range(view, margin + skin.distance);
-    pair.search.for_each_near(view, range.margin, range.reach + skin.distance,
+    pair.search.for_each_near(view, range.margin, range.patch_radius + skin.distance,
                               [&](std::int32_t i, std::int32_t j) {
                                   out.push_back({i, j});
                               });
-    return bound_spheres(view, range.reach, skin, first, pair.rows, out);
+    return bound_spheres(view, range.patch_radius, skin, first, pair.rows, out);
 }
 
 // Spheres of deep bodies have passed each other: their solids tell which contacts are lost. Those
@@ -68,7 +69,7 @@ void find_lost(const PairView& view, double apart, double most, FoundBatch::Pair
     pair.seats.clear();
     if (is_deep(view, apart))
         find_lost_polygon(view, pair.candidates, most, pair.clipping, pair.polygon);
-    else if (has_deep_seats(view, apart))
+    else if (may_have_deep_seats(view, apart))
         find_deep_seats(view, pair.candidates, pair.seats);
 }
 
@@ -231,14 +232,16 @@ void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs,
     }
     out.resize(contacts);
     parallel_for(found_.size(), kSerialPairs, [&](std::size_t n) {
+        // a pair's contacts: its candidates, then the polygon's corners or the deep seats
         const Found& found = found_[n];
         Contact* const first = out.data() + found.contact;
         if (found.corners.count > 0)
-            emit_polygon(PairView(scene, pairs[pairs_to_measure_[n]]), rule, found.normal,
-                         found.corners.of(found.batch->corners), first + found.candidates.count);
+            make_polygon_contacts(PairView(scene, pairs[pairs_to_measure_[n]]), rule, found.normal,
+                                  found.corners.of(found.batch->corners),
+                                  first + found.candidates.count);
         if (found.seats.count > 0)
-            emit_deep_seats(PairView(scene, pairs[pairs_to_measure_[n]]), rule,
-                            found.seats.of(found.batch->seats), first + found.candidates.count);
+            make_seat_contacts(PairView(scene, pairs[pairs_to_measure_[n]]), rule,
+                               found.seats.of(found.batch->seats), first + found.candidates.count);
         if (found.candidates.count > 0)
             make_contacts(PairView(scene, pairs[pairs_to_measure_[n]]),
                           found.candidates.of(found.batch->candidates),
@@ -255,8 +258,8 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
     const auto append_polygon = [&] {
         const std::vector<PolygonCorner>& corners = found.polygon.corners;
         out.resize(out.size() + corners.size());
-        emit_polygon(view, how, found.polygon.normal, corners,
-                     out.data() + (out.size() - corners.size()));
+        make_polygon_contacts(view, how, found.polygon.normal, corners,
+                              out.data() + (out.size() - corners.size()));
     };
     if (meets_in_polygon(scene, pair, how)) {
         const SeparatingAxes axes = axes_of(view, margin);
@@ -295,7 +298,7 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
     find_lost(view, apart, margin, found);
     append_polygon();
     out.resize(out.size() + found.seats.size());
-    emit_deep_seats(view, how, found.seats, out.data() + (out.size() - found.seats.size()));
+    make_seat_contacts(view, how, found.seats, out.data() + (out.size() - found.seats.size()));
 }
 
 }  // namespace reference

@@ -36,10 +36,10 @@ namespace ice {
 ///
 /// Bodies that are apart (separation) by more than the margin have none.
 ///
-/// Crushed spheres lie where the crushing left them; driven out of their body they are gone. A
-/// contact's patch is that of its incident sphere. Under the rule "centres" it is the ice sphere's
-/// share, the smaller one between two floes, split among the sphere's contacts with that body, and
-/// counts whole.
+/// A crushed sphere is used at its shifted place; one that was shifted out of its body is ignored.
+/// A contact's patch is that of its incident sphere. Under the rule "centres" it is the share of
+/// the ice sphere, of two floes the smaller one, divided among the sphere's contacts with that
+/// body; it is not cut.
 ///
 /// A contact is listed up to a gap of dt times a bound of the pair's closing speed, plus `margin`.
 /// No pairs give no contacts.
@@ -59,8 +59,8 @@ public:
     void find(const Scene& scene, const std::vector<BodyPair>& pairs, const MotionBounds& motion,
               ContactRule rule, double dt, double margin, std::vector<Contact>& out);
 
-    /// These bodies have another form now, or another place than MotionBounds knows: all pairs with
-    /// them are searched afresh. @pre sorted
+    /// These bodies have another shape now, or another place than MotionBounds knows: all pairs
+    /// with them are searched afresh. @pre sorted
     void forget(const std::vector<std::int32_t>& bodies);
 
 private:

@@ -22,7 +22,7 @@ struct ContactsWork {
 void make_contacts(const PairView& view, std::span<const Candidate> candidates, ContactsWork& work,
                    Contact* out);
 
-/// Is b's sphere the incident one? @param c  one of make_contacts(): other keys tell nothing
+/// Is b's sphere the incident one? @param c  one of make_contacts(): other keys have no such bit
 inline bool incident_is_b(const Contact& c) { return (c.key >> 32 & 1) != 0; }
 
 /// Depth by which contact along the unit vector n, from a to b in a's axes, has crushed b's sphere

@@ -83,8 +83,8 @@ inline Gap measure_gap_centres(const Vec3& center_a, double radius_a, const Vec3
 ///   if neither apex lies over the other's part of the face, or if they are deeper along nearly the
 ///   same normal. So an edge at the end of a face, or one that crosses another at a small angle,
 ///   meets the other body at the crossing, between two spheres.
-/// - Where one of the two does not know its faces, the flatter side gives its normal that is
-///   nearest to the line of centres.
+/// - If the faces of one of the two are unknown, the flatter side gives its normal that is nearest
+///   to the line of centres.
 ///
 /// The flatter side is the reference: the smaller spread; of two edges the one below the other's
 /// apex, a if both. The gap is exact for a face on a face, an edge on a face and an edge across an

@@ -126,7 +126,7 @@ void group_by_types(const PairView& view, std::vector<TypesRow>& rows,
     });
 }
 
-double bound_spheres(const PairView& view, double reach, const Skin& skin, std::size_t first,
+double bound_spheres(const PairView& view, double patch_radius, const Skin& skin, std::size_t first,
                      std::vector<TypesRow>& rows, std::vector<SpherePair>& spheres) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     group_by_types(view, rows, std::span(spheres).subspan(first));
@@ -142,7 +142,7 @@ double bound_spheres(const PairView& view, double reach, const Skin& skin, std::
         if (view.shape_a.feature_type[i] != type_a || view.shape_b.feature_type[j] != type_b) {
             if (view.shape_a.feature_type[i] != type_a) feature_a = view.sphere_a(i);
             if (view.shape_b.feature_type[j] != type_b) feature_b = view.sphere_b(j);
-            bound.emplace(feature_a, feature_b, prefers_reference_a(view), reach, skin);
+            bound.emplace(feature_a, feature_b, prefers_reference_a(view), patch_radius, skin);
             type_a = view.shape_a.feature_type[i];
             type_b = view.shape_b.feature_type[j];
         }

@@ -15,19 +15,19 @@
 namespace ice {
 
 /// The distance within which two spheres are compared: apex distances and margin along the normal,
-/// the reach and the corners' offsets across it [m]. Of edges that run side by side and cross, each
-/// sphere may be its patch radius from there: NormalCone::tangent_extent has half of it for each,
-/// this adds the difference for the shape with the larger one.
+/// the patch radius and the corners' offsets across it [m]. Of edges that run side by side and
+/// cross, each sphere may be its patch radius from there: NormalCone::tangent_extent has half of it
+/// for each, this adds the difference for the shape with the larger one.
 struct SphereRange {
-    double margin, reach;  ///< along and across the normal [m]
+    double margin, patch_radius;  ///< along and across the normal [m]
 
     /// @param m  the margin [m]
-    SphereRange(const PairView& view, double m) : margin(m), reach(reach_of(view)) {}
+    SphereRange(const PairView& view, double m) : margin(m), patch_radius(patch_radius_of(view)) {}
 
     /// Largest squared distance of centres [m2].
     double squared(const NormalCone& a, const NormalCone& b) const {
         const double along = a.apex_distance + b.apex_distance + margin,
-                     across = reach + a.tangent_extent + b.tangent_extent;
+                     across = patch_radius + a.tangent_extent + b.tangent_extent;
         return along * along + across * across;
     }
     /// Are the centres within it? Spheres beyond it cannot be candidates.
@@ -36,7 +36,7 @@ struct SphereRange {
     }
 
 private:
-    static double reach_of(const PairView& view) {
+    static double patch_radius_of(const PairView& view) {
         const double a = view.shape_a.patch_radius, b = view.shape_b.patch_radius;
         return std::max(a, b) + 0.5 * std::abs(a - b);
     }
@@ -66,10 +66,10 @@ void group_by_types(const PairView& view, std::vector<TypesRow>& rows,
 /// Keeps of the spheres from `first` on those that may be candidates while the pair moves within
 /// `skin`, sorted by feature types; returns the least gap that they may have, less that
 /// motion [m]: infinite where none is kept.
-/// @param reach    SphereRange's [m]
-/// @param rows     work memory
-/// @param spheres  those before `first` stay as they are
-double bound_spheres(const PairView& view, double reach, const Skin& skin, std::size_t first,
+/// @param patch_radius  SphereRange's [m]
+/// @param rows          work memory
+/// @param spheres       those before `first` stay as they are
+double bound_spheres(const PairView& view, double patch_radius, const Skin& skin, std::size_t first,
                      std::vector<TypesRow>& rows, std::vector<SpherePair>& spheres);
 
 /// The candidates among these spheres, in their order: the ones of measure_gap_surface, as

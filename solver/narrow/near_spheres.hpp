@@ -18,7 +18,7 @@ struct FloatPose {
 
 /// How far apart two spheres may be and still matter: see in_range.
 struct SearchRange {
-    float along, across;  ///< added to the two spheres' own extents [m]
+    float normal_extent, tangent_extent;  ///< added to the two spheres' own extents [m]
 };
 
 /// Larger than any coordinate [m]: an empty box has it as its low and minus it as its high corner.
@@ -42,9 +42,9 @@ struct NearPairs {
     std::vector<std::uint8_t> masks;    ///< room for the search
 };
 
-/// Groups of 16 spheres whose box comes within `reach` [m] of `box`, ascending; body axes. None for
-/// an empty box. @param out  its old content is dropped
-void find_groups(const SphereBlocks& spheres, const FloatBox& box, float reach,
+/// Groups of 16 spheres whose box meets `box` grown by `grow` [m] on all sides, ascending; body
+/// axes. None for an empty box. @param out  its old content is dropped
+void find_groups(const SphereBlocks& spheres, const FloatBox& box, float grow,
                  std::vector<std::int32_t>& out);
 
 /// Picks, of these groups, the spheres whose centres, moved by `pose`, lie in `box` grown by
@@ -58,7 +58,7 @@ void pick_spheres(const NearSpheres& from, const FloatBox& box, float grow, Near
 
 /// For rows f = first .. last - 1 of `few` finds all spheres of `many` with
 ///
-///     |c_f - c_m|^2 <= (n_f + n_m + range.along)^2 + (t_f + t_m + range.across)^2,
+///     |c_f - c_m|^2 <= (n_f + n_m + range.normal_extent)^2 + (t_f + t_m + range.tangent_extent)^2,
 ///
 /// n and t being the normal and tangent extents [m], in the order of `many`. Rows without a partner
 /// have an empty range.
@@ -67,7 +67,7 @@ void find_near_pairs(const NearSpheres& few, std::size_t first, std::size_t last
 
 namespace reference {
 // The definitions, one sphere at a time: read these first. Same bits on every instruction set.
-void find_groups(const SphereBlocks& spheres, const FloatBox& box, float reach,
+void find_groups(const SphereBlocks& spheres, const FloatBox& box, float grow,
                  std::vector<std::int32_t>& out);
 void pick_spheres(const SphereBlocks& spheres, const std::vector<std::int32_t>& groups,
                   const FloatPose& pose, const FloatBox& box, float grow, NearSpheres& out);

@@ -7,7 +7,7 @@
 
 namespace ice::reference {
 
-void find_groups(const SphereBlocks& spheres, const FloatBox& box, float reach,
+void find_groups(const SphereBlocks& spheres, const FloatBox& box, float grow,
                  std::vector<std::int32_t>& out) {
     out.clear();
     const BoxRows& rows = spheres.groups;
@@ -15,8 +15,8 @@ void find_groups(const SphereBlocks& spheres, const FloatBox& box, float reach,
         bool near = true;
         // boxes overlap unless one of six faces separates them
         for (int d = 0; d < 3; ++d)
-            near = near && rows.low[d][g] <= box.high[d] + reach &&
-                   rows.high[d][g] >= box.low[d] - reach;
+            near = near && rows.low[d][g] <= box.high[d] + grow &&
+                   rows.high[d][g] >= box.low[d] - grow;
         if (near) out.push_back(static_cast<std::int32_t>(g));
     }
 }
@@ -35,9 +35,9 @@ void clear(NearSpheres& out) {
 template <class Spheres>
 void pick(const Spheres& from, std::size_t k, const float (&at)[3], const FloatBox& box, float grow,
           NearSpheres& out) {
-    const float reach = grow + from.own[k];
+    const float limit = grow + from.own[k];
     for (int d = 0; d < 3; ++d)
-        if (at[d] < box.low[d] - reach || at[d] > box.high[d] + reach) return;
+        if (at[d] < box.low[d] - limit || at[d] > box.high[d] + limit) return;
     out.x.push_back(at[0]);
     out.y.push_back(at[1]);
     out.z.push_back(at[2]);
@@ -88,8 +88,10 @@ void find_near_pairs(const NearSpheres& few, std::size_t first, std::size_t last
                         dz = many.z[m] - few.z[f];
             // The limits along and across the normal make a cylinder; the sphere around it
             // needs no normal.
-            const float along = many.normal_extent[m] + (few.normal_extent[f] + range.along);
-            const float across = many.tangent_extent[m] + (few.tangent_extent[f] + range.across);
+            const float along =
+                many.normal_extent[m] + (few.normal_extent[f] + range.normal_extent);
+            const float across =
+                many.tangent_extent[m] + (few.tangent_extent[f] + range.tangent_extent);
             if (dx * dx + dy * dy + dz * dz <= along * along + across * across)
                 out.partner.push_back(many.id[m]);
         }

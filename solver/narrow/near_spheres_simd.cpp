@@ -31,20 +31,21 @@ HWY_INLINE void Append(const std::int32_t* ids, Mask which, std::int32_t* to) {
     hn::StoreU(Compressed(d, hn::LoadU(d, ids), hn::RebindMask(d, which)), d, to);
 }
 
-// Appends the numbers of those of 16 boxes from `first` on that touch `box` grown by `reach`.
+// Appends the numbers of those of 16 boxes from `first` on that touch `box` grown by `grow`.
 HWY_INLINE std::size_t TouchingBoxes(const BoxRows& rows, std::size_t first, const FloatBox& box,
-                                     float reach, std::int32_t* out) {
+                                     float grow, std::int32_t* out) {
     const Tag d;
     const IdTag di;
     std::size_t found = 0;
+    // boxes overlap unless one of six faces separates them; lanes are boxes
     for (std::size_t k = first; k < first + kBlock; k += hn::Lanes(d)) {
-        Mask near = hn::Le(hn::LoadU(d, rows.low[0].data() + k), hn::Set(d, box.high[0] + reach));
+        Mask near = hn::Le(hn::LoadU(d, rows.low[0].data() + k), hn::Set(d, box.high[0] + grow));
         for (int axis = 0; axis < 3; ++axis) {
             if (axis > 0)
                 near = hn::And(near, hn::Le(hn::LoadU(d, rows.low[axis].data() + k),
-                                            hn::Set(d, box.high[axis] + reach)));
+                                            hn::Set(d, box.high[axis] + grow)));
             near = hn::And(near, hn::Ge(hn::LoadU(d, rows.high[axis].data() + k),
-                                        hn::Set(d, box.low[axis] - reach)));
+                                        hn::Set(d, box.low[axis] - grow)));
         }
         const auto number = hn::Iota(di, static_cast<std::int32_t>(k));
         hn::StoreU(Compressed(di, number, hn::RebindMask(di, near)), di, out + found);
@@ -53,17 +54,17 @@ HWY_INLINE std::size_t TouchingBoxes(const BoxRows& rows, std::size_t first, con
     return found;
 }
 
-void FindGroups(const SphereBlocks& spheres, const FloatBox& box, float reach,
+void FindGroups(const SphereBlocks& spheres, const FloatBox& box, float grow,
                 std::vector<std::int32_t>& out) {
     out.resize(spheres.groups.size() + 2 * kBlock);  // full vectors are stored behind the last
     std::size_t found = 0;
     std::int32_t clusters[2 * kBlock];
     // Two levels: a cluster is 16 groups; one test of 16 boxes rules out most groups.
     for (std::size_t k = 0; k < spheres.clusters.size(); k += kBlock) {
-        const std::size_t near = TouchingBoxes(spheres.clusters, k, box, reach, clusters);
+        const std::size_t near = TouchingBoxes(spheres.clusters, k, box, grow, clusters);
         for (std::size_t c = 0; c < near; ++c)
             found += TouchingBoxes(spheres.groups, kBlock * static_cast<std::size_t>(clusters[c]),
-                                   box, reach, out.data() + found);
+                                   box, grow, out.data() + found);
     }
     out.resize(found);
 }
@@ -85,13 +86,13 @@ public:
     template <class Spheres>
     HWY_INLINE void Add(const Spheres& from, std::size_t k, Mask valid, Lanes x, Lanes y, Lanes z) {
         const Tag d;
-        // Each sphere has a reach of its own: a fixed one would be that of the largest and let most
-        // pass.
+        // Each sphere has a limit of its own: a common one would be that of the largest and let
+        // most pass.
         const auto own = hn::LoadU(d, from.own.data() + k);
-        const auto reach = hn::Add(hn::Set(d, grow_), own);
+        const auto limit = hn::Add(hn::Set(d, grow_), own);
         const auto inside = [&](Lanes at, int axis) {
-            return hn::And(hn::Ge(at, hn::Sub(hn::Set(d, box_.low[axis]), reach)),
-                           hn::Le(at, hn::Add(hn::Set(d, box_.high[axis]), reach)));
+            return hn::And(hn::Ge(at, hn::Sub(hn::Set(d, box_.low[axis]), limit)),
+                           hn::Le(at, hn::Add(hn::Set(d, box_.high[axis]), limit)));
         };
         const Mask picked =
             hn::And(hn::And(valid, inside(x, 0)), hn::And(inside(y, 1), inside(z, 2)));
@@ -187,8 +188,8 @@ HWY_INLINE void TestRows(const NearSpheres& few, std::size_t f, const NearSphere
         x[r] = hn::Set(d, few.x[f + r]);
         y[r] = hn::Set(d, few.y[f + r]);
         z[r] = hn::Set(d, few.z[f + r]);
-        along[r] = hn::Set(d, few.normal_extent[f + r] + range.along);
-        across[r] = hn::Set(d, few.tangent_extent[f + r] + range.across);
+        along[r] = hn::Set(d, few.normal_extent[f + r] + range.normal_extent);
+        across[r] = hn::Set(d, few.tangent_extent[f + r] + range.tangent_extent);
         hits[r] = hn::FirstN(d, 0);
     }
     std::uint8_t* to = masks;
@@ -256,9 +257,9 @@ HWY_EXPORT(PickMoved);
 HWY_EXPORT(PickNear);
 HWY_EXPORT(FindNearPairs);
 
-void find_groups(const SphereBlocks& spheres, const FloatBox& box, float reach,
+void find_groups(const SphereBlocks& spheres, const FloatBox& box, float grow,
                  std::vector<std::int32_t>& out) {
-    HWY_DYNAMIC_DISPATCH(FindGroups)(spheres, box, reach, out);
+    HWY_DYNAMIC_DISPATCH(FindGroups)(spheres, box, grow, out);
 }
 
 void pick_spheres(const SphereBlocks& spheres, const std::vector<std::int32_t>& groups,

@@ -88,7 +88,7 @@ void PairCache::set_seat_clearance(std::size_t k, const PairView& view, double c
 
 double PairCache::seat_clearance_left(const Row& row, const PairView& view, double apart) {
     if (view.shape_a.dimension == 2 || is_convex_pair(view))
-        return std::numeric_limits<double>::infinity();  // their axis tells the depth of solids
+        return std::numeric_limits<double>::infinity();  // the separating axis gives their depth
     // apart: no seat lies inside, and one needs the slack to become deep
     if (apart > 0.0) return deep_slack(view);
     if (row.seat_clearance < 0.0) return row.seat_clearance;

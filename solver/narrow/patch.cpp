@@ -13,7 +13,7 @@ namespace {
 // bound jump with the rounding of a gap.
 constexpr double kTouch = 1e-4;
 
-// A patch that stands upright still has this share of its area [-], so that nothing passes through
+// An upright patch still has this share of its area [-], so that nothing passes through
 // it. More adds force on sides that slide along; 0 lets a body cut along its own side unresisted.
 constexpr double kLeastFacing = 0.05;
 
@@ -22,10 +22,10 @@ constexpr double kLeastFacing = 0.05;
 constexpr double kLeastSpreadCos = 1e-3;
 
 // Projected area of a wing of unit area as far as a face at `depth` below the foot cuts it; the
-// wing goes down from the foot at the angle with this sine and cosine, up where the sine is < 0.
+// wing descends from the foot at the angle with this sine and cosine, up where the sine is < 0.
 double cut_wing(double sine, double cosine, double wing, double depth) {
-    if (cosine <= 0.0) return 0.0;  // stands upright: no area along the normal
-    // Of a wing that goes down from the foot the face cuts the upper part. A wing that rises is
+    if (cosine <= 0.0) return 0.0;  // upright: no area along the normal
+    // Of a wing that descends from the foot the face cuts the upper part. A wing that rises is
     // cut whole, or only its tip where the face has not reached the foot (depth < 0).
     const double rise = wing * std::abs(sine) + kTouch;
     const double part = sine > 0.0 ? (depth + kTouch) / rise : 1.0 + depth / rise;
@@ -52,7 +52,7 @@ double cut_area(const Patch& patch, double depth) {
     const double other = cut_wing(ss * ct - cs * st, cs * ct + ss * st, patch.wing, below_foot);
     // where a wing faces backwards, or three meet in a corner, the signed sum is the whole section
     const double whole = std::max(cs * ct, 0.0);
-    // at least 5 % of what the same depth cuts from a patch that stands upright
+    // at least 5 % of what the same depth cuts from an upright patch
     const double least = kLeastFacing * cut_wing(1.0, 1.0, patch.wing, depth);
     return patch.share * std::max(std::min(0.5 * (away + other), whole), least);
 }

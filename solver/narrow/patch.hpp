@@ -22,7 +22,7 @@ struct Patch {
               ///< negative before touch [m]
 };
 
-/// Length of the wings of a sphere's share [m]: wing x 2 x spacing = share, where the wing goes
+/// Length of the wings of a sphere's share [m]: wing x 2 x spacing = share, where the wing descends
 /// from the foot past the point of touch, at r tan s, by half the spacing. With touch = r tan s the
 /// wing w solves 4 w (w - touch) = share; half the root of the share on a face. In 2D a wing is
 /// half the share, and this is not used.

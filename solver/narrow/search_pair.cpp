@@ -7,8 +7,8 @@ namespace ice {
 
 namespace {
 
-// Up to so many spheres [-] it costs less to compare with all than to pick the nearer ones. Only
-// time depends on it: the same pairs are found.
+// Up to this number of spheres [-] a comparison with all costs less than picking the nearer ones.
+// The pairs do not depend on it, only the time.
 constexpr std::size_t kAllAtOnce = 64;
 
 // The box around a box that was moved by p' = rotation p + translation.
@@ -29,14 +29,14 @@ FloatBox move_box(const FloatBox& box, const Mat3& rotation, const Vec3& transla
     return out;
 }
 
-// How far a sphere's partner among `others` may be, less its own hypot(normal_extent,
-// tangent_extent).
-float reach_of(const SphereBlocks& others, const SearchRange& range) {
-    return std::hypot(others.largest_normal_extent + range.along,
-                      others.largest_tangent_extent + range.across);
+// Largest distance of a sphere's partner among `others`, less the sphere's own
+// hypot(normal_extent, tangent_extent) [m].
+float growth_of(const SphereBlocks& others, const SearchRange& range) {
+    return std::hypot(others.largest_normal_extent + range.normal_extent,
+                      others.largest_tangent_extent + range.tangent_extent);
 }
 
-// Spheres of a body, picked at their places before any crushing, go to their present places.
+// Shifts a body's spheres, picked at their places before any crushing, to their present places.
 void move_crushed(const CrushedIce& crushed, std::int32_t body, const Shape& shape,
                   const Mat3& rotation, const Vec3& translation, NearSpheres& picked) {
     if (crushed.is_whole(body)) return;
@@ -61,7 +61,7 @@ FloatPose to_floats(const Mat3& rotation, const Vec3& translation) {
     return out;
 }
 
-void PairSearch::pick(const PairView& view, double along, double across,
+void PairSearch::pick(const PairView& view, double normal_extent, double tangent_extent,
                       SphereBlocks Shape::*blocks) {
     const bool few_a = a_has_fewer(view);
     const SphereBlocks& few = (few_a ? view.shape_a : view.shape_b).*blocks;
@@ -78,20 +78,21 @@ void PairSearch::pick(const PairView& view, double along, double across,
     const double rounding = static_cast<double>(SphereBlocks::kFloatShare) * extent;
     const double slack = rounding + view.scene.crushed.deepest_of(view.pair.a) +
                          view.scene.crushed.deepest_of(view.pair.b);
-    range_ = {static_cast<float>(along + slack), static_cast<float>(across + slack)};
+    range_ = {static_cast<float>(normal_extent + slack),
+              static_cast<float>(tangent_extent + slack)};
 
-    const float reach_few = reach_of(many, range_);
-    reach_ = reach_of(few, range_);
+    const float grow_few = growth_of(many, range_);
+    grow_ = growth_of(few, range_);
     few_.count = 0;
     // Each body is narrowed by the other's box: many against the box of all few, then the few
     // against the box of the many that are left.
-    find_groups(many, move_box(few.box, back, -(back * translation)), many.largest_own + reach_,
+    find_groups(many, move_box(few.box, back, -(back * translation)), many.largest_own + grow_,
                 groups_);
     if (groups_.empty()) return;
-    pick_spheres(many, groups_, to_floats(rotation, translation), few.box, reach_, many_);
+    pick_spheres(many, groups_, to_floats(rotation, translation), few.box, grow_, many_);
     if (many_.count == 0) return;
-    find_groups(few, many_.box, few.largest_own + reach_few, groups_);
-    pick_spheres(few, groups_, to_floats(Mat3::Identity(), Vec3::Zero()), many_.box, reach_few,
+    find_groups(few, many_.box, few.largest_own + grow_few, groups_);
+    pick_spheres(few, groups_, to_floats(Mat3::Identity(), Vec3::Zero()), many_.box, grow_few,
                  few_);
     // Those picked are compared at their present places. One deeply crushed sphere would else list
     // every sphere of its body with all within that depth. The boxes of few_ and many_ are those of
@@ -100,8 +101,9 @@ void PairSearch::pick(const PairView& view, double along, double across,
                  few_a ? view.shape_b : view.shape_a, rotation, translation, many_);
     move_crushed(view.scene.crushed, few_a ? view.pair.a : view.pair.b,
                  few_a ? view.shape_a : view.shape_b, Mat3::Identity(), Vec3::Zero(), few_);
-    range_ = {static_cast<float>(along + rounding), static_cast<float>(across + rounding)};
-    reach_ = reach_of(few, range_);
+    range_ = {static_cast<float>(normal_extent + rounding),
+              static_cast<float>(tangent_extent + rounding)};
+    grow_ = growth_of(few, range_);
 }
 
 const NearSpheres& PairSearch::partners_of(std::size_t first, std::size_t last) {
@@ -117,7 +119,7 @@ const NearSpheres& PairSearch::partners_of(std::size_t first, std::size_t last) 
     extent(few_.x, 0, box);
     extent(few_.y, 1, box);
     extent(few_.z, 2, box);
-    pick_spheres(many_, box, reach_, partners_);
+    pick_spheres(many_, box, grow_, partners_);
     return partners_;
 }
 

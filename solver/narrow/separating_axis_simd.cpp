@@ -80,7 +80,7 @@ HWY_INLINE void Reduce(Lanes gaps, std::size_t first, std::size_t count, Widest&
 }
 
 // The widest gap of planes to corners in the same axes. Lanes are planes, so that each has its own
-// minimum over the corners and no sum goes across lanes.
+// minimum over the corners and no sum is across lanes.
 template <class Offset>
 HWY_INLINE Widest GapOfPlanes(const VectorBlock* normals, std::size_t planes, const Offset& offset,
                               const VectorBlock* corners, std::size_t corner_count) {

@@ -13,10 +13,10 @@ namespace ice {
 
 namespace {
 
-// Solids meet in their polygon, too, where they overlap by so much more than any contact of their
-// spheres tells. The separating axis is exact: this is the depth that a hull's edge may reach in a
+// Solids meet in their polygon, too, if they overlap by this much more than any contact of their
+// spheres. The separating axis is exact: this is the depth that a hull's edge may reach in a
 // floe's face between two spheres, 1 mm with spheres of 0.05 m. With half a radius a knuckle cut 26
-// mm into a floe unseen (docs/design-notes.md); less gives polygons where spheres will do.
+// mm into a floe without a contact (docs/design-notes.md); less gives polygons without need.
 constexpr double kLostShare = 0.02;  // of the ice's radius [-]
 
 double lost_slack(const PairView& view) { return kLostShare * view.shape_b.largest_radius; }
@@ -25,7 +25,8 @@ double lost_slack(const PairView& view) { return kLostShare * view.shape_b.large
 
 bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule) {
     if (rule.normal != NormalRule::surface || rule.crushes) return false;
-    if (pair.a == static_cast<std::int32_t>(kShip)) return false;  // its spheres carry the loads
+    if (pair.a == static_cast<std::int32_t>(kShip))
+        return false;  // the loads are recorded by its spheres
     const auto convex = [&](std::int32_t i) {
         return !scene.shapes[static_cast<std::size_t>(scene.bodies.shape[i])].convex.empty();
     };
@@ -49,8 +50,8 @@ void find_polygon(const PairView& view, const SeparatingAxes& axes, double most,
               });
 }
 
-void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& normal,
-                  std::span<const PolygonCorner> corners, Contact* out) {
+void make_polygon_contacts(const PairView& view, const ContactRule& rule, const Vec3& normal,
+                           std::span<const PolygonCorner> corners, Contact* out) {
     const Mat3& rotation = view.scene.bodies.rotation[view.pair.a];
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
     for (const PolygonCorner& corner : corners) {
@@ -72,7 +73,7 @@ void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& nor
         contact.sphere_a = nearest_sphere(view.shape_a, corner.point);
         contact.sphere_b = nearest_sphere(view.shape_b, view.to_b(corner.point));
         if (ship) contact.region = view.shape_a.region.at(contact.sphere_a, normal);
-        // the ice that has been crushed there is gone; depth counts from where its surface was
+        // the ice that was crushed there is left out; depth counts from its old surface
         contact.gap += crushed_depth(view, contact.sphere_b, normal);
         contact.patch = ice_patch(view, contact.sphere_b, normal, contact.gap);
     }

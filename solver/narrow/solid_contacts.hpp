@@ -25,17 +25,17 @@ void find_polygon(const PairView& view, const SeparatingAxes& axes, double most,
 /// Makes contacts of a polygon's corners, in their order. Between floes that cannot be crushed they
 /// have no spheres and no share; else those of the nearest spheres, b's ice being crushed.
 /// @param normal  of the polygon: unit, from a to b, a's axes @param out  room for as many
-void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& normal,
-                  std::span<const PolygonCorner> corners, Contact* out);
+void make_polygon_contacts(const PairView& view, const ContactRule& rule, const Vec3& normal,
+                           std::span<const PolygonCorner> corners, Contact* out);
 
-/// Are both bodies convex solids (Shape::convex)? Then one axis tells how deep they lie.
+/// Are both bodies convex solids (Shape::convex)? Then the separating axis gives their depth.
 inline bool is_convex_pair(const PairView& view) {
     return !view.shape_a.convex.empty() && !view.shape_b.convex.empty();
 }
 
 /// May seats of one body lie deep in the other, which are not both convex (find_deep_seats)?
 /// @param apart  [m] their separation
-inline bool has_deep_seats(const PairView& view, double apart) {
+inline bool may_have_deep_seats(const PairView& view, double apart) {
     return view.shape_a.dimension == 3 && !is_convex_pair(view) && apart <= 0.0;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Which of the listed spheres of two bodies touch, now that the bodies have gone on.
+/// Which of the listed spheres of two bodies touch at the present poses.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace ice {
 
-/// Sixteen pairs of spheres beside each other, each sphere in its own body's axes, in whole units
-/// of a length that their list has.
+/// Sixteen pairs of spheres beside each other. Each sphere is in its own body's axes, in whole
+/// units of a length that belongs to the list.
 ///
-/// Lists are read in every step, those of many bodies from beyond the caches: with 16 bits a number
-/// they take two thirds of the room of floats. Touching spheres are measured again in double
+/// Lists are read in every step; those of many bodies do not fit into the caches. With 16 bits a
+/// number they take two thirds of the room of floats. Touching spheres are measured again in double
 /// precision.
 struct alignas(64) ListedSpheres {
     static constexpr std::size_t kPairs = 16;

@@ -29,8 +29,8 @@ std::optional<Notch> notch_of(const Shape& shape, std::int32_t k, const Vec3& mo
     const Vec3 from = point - shape.center[k];
     const double behind = from.dot(inwards), along = behind + shape.radius[k];
     // beside the path the ice is another sphere's
-    const double reach = shape.patch_radius * shape.patch_radius;
-    if (along < -kPlaceRounding || (from - behind * inwards).squaredNorm() > reach)
+    const double radius_sq = shape.patch_radius * shape.patch_radius;
+    if (along < -kPlaceRounding || (from - behind * inwards).squaredNorm() > radius_sq)
         return std::nullopt;
     return Notch{along - length, -inwards};
 }

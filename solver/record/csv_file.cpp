@@ -69,7 +69,7 @@ CsvFile::CsvFile(std::filesystem::path path, const std::string& columns, int dim
                  const std::filesystem::path& earlier, std::int64_t bytes)
     : path_(std::move(path)) {
     const std::string header = whole_header(columns, dimension);
-    // the rows up to the checkpoint, from the unfinished file or, where that is gone, the
+    // the rows up to the checkpoint, from the unfinished file or, if that is missing, the
     // finished one
     std::string text = first_bytes(part_of(earlier), bytes);
     if (text.empty()) text = first_bytes(earlier, bytes);

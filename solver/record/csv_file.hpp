@@ -14,7 +14,7 @@ namespace ice {
 
 /// A growing CSV table with a header line; named x.part until finish() renames it.
 ///
-/// In 2D forces and energies are per metre of breadth: columns that end in _N or _J stand once more
+/// In 2D forces and energies are per metre of breadth: columns that end in _N or _J are repeated
 /// behind the others, with _per_m at the end of their names.
 ///
 /// Rows that a full disk does not take wait in memory: only flush() and finish() fail for them, and
@@ -48,7 +48,7 @@ private:
     std::string whole_header(const std::string& columns, int dimension);
 
     std::filesystem::path path_;
-    std::vector<std::size_t> per_metre_;     // columns that stand once more at the end
+    std::vector<std::size_t> per_metre_;     // columns that are repeated at the end
     std::unique_ptr<std::FILE, Close> out_;  // without a buffer of its own
     std::string waiting_;                    // rows that are not on disk yet
     std::int64_t bytes_ = 0;                 // on disk
@@ -59,7 +59,7 @@ private:
 /// forces.csv where floes are held until they bend.
 extern const char* const kForceColumns;
 extern const char* const kBreakingColumn;
-extern const char* const kShipColumns;  ///< behind them, of a ship that answers
+extern const char* const kShipColumns;  ///< behind them, of a free ship
 extern const char* const kFloeColumns;
 /// @param breaking  with kBreakingColumn @param ship  with kShipColumns
 std::vector<double> csv_row(const HistoryRow& row, bool breaking, bool ship);

@@ -16,7 +16,7 @@ namespace {
 // it. Only the warning depends on this number.
 constexpr double kWorryingResidual = 0.005;
 
-// Where the work of one contact goes, (19). @param start  velocities at the start of the step
+// The uses of the work of one contact, (19). @param start  velocities at the start of the step
 void enter_contact(const Bodies& now, const Constraint& c, const StepStart& start,
                    EnergyLedger& ledger) {
     const Vec3 before = start.velocity[c.b] + start.angular_velocity[c.b].cross(c.arm_b) -
@@ -36,8 +36,7 @@ void enter_contact(const Bodies& now, const Constraint& c, const StepStart& star
     const auto works_on = [&](std::int32_t i) {  // drifting held ice, on its neighbours
         return i != static_cast<std::int32_t>(kShip) && now.held[i] != 0;
     };
-    // Held ice that drifts is moved by no force of the model: whatever it gives to others comes
-    // from outside.
+    // No force of the model moves held ice that drifts: its work on others comes from outside.
     if (works_on(c.a)) ledger.drift_work += (push + rub).dot(now.velocity[c.a]);
     if (works_on(c.b)) ledger.drift_work -= (push + rub).dot(now.velocity[c.b]);
     if (c.a != static_cast<std::int32_t>(kShip)) return;

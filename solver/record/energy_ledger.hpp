@@ -25,7 +25,7 @@ namespace ice {
 /// The terms, J_c being the impulse of contact c on body b in a step and
 /// V = (v_r at its start + v_r at its end) / 2 the mean of the contact's relative velocity:
 ///
-///     ship_work        sum of J_c . v_ship over the ship's contacts; of a ship that answers, the
+///     ship_work        sum of J_c . v_ship over the ship's contacts; of a free ship, the
 ///                      mean of its velocities there at the step's start and end
 ///     drift_work       sum of J_c . v over the contacts of held ice that drifts at v
 ///     friction         -J_t . V

@@ -34,7 +34,7 @@ std::vector<double> peaks_above(std::span<const double> series, double level) {
     return peaks;
 }
 
-// Of no windows no number: peaks_of() then does not look at it.
+// NaN without windows; peaks_of() does not use it then.
 double mean_of_windows(std::span<const double> series) {
     return std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
 }

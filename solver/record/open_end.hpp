@@ -14,7 +14,7 @@ namespace ice {
 ///
 /// A channel has unbroken ice on both sides of its loose floes (Scene::start). A floe counts that
 /// moves freely ahead of the bow and reaches beyond where the ice ended at the start by a tenth of
-/// its own length. Nothing is said where the farthest came out by less than a tenth of the ship's
+/// its own length. No warning if the farthest floe came out by less than a tenth of the ship's
 /// travel: floes that spread slowly into open water do not move with the ship.
 ///
 /// @param travel  of the ship up to now [m]

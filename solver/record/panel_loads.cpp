@@ -62,7 +62,7 @@ void PanelLoads::close_window() {
         on_region_[r] = 0.0;
     }
     std::vector<double> lines(on_region_.size(), 0.0);
-    // windows without a load are not stored: the quantile knows their number
+    // windows without a load are not stored: the quantile counts them
     for (std::size_t k = 0; k < on_panel_.size(); ++k) {
         if (on_panel_[k] <= 0.0) continue;
         const double force = on_panel_[k] / hull_.window;

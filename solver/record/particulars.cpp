@@ -8,7 +8,7 @@
 
 #include "common/base/units.hpp"
 #include "common/formulas/formula_band.hpp"
-#include "solver/record/hull_form.hpp"
+#include "solver/record/measure_hull_dimensions.hpp"
 #include "solver/water/hydrostatics.hpp"
 
 namespace ice {
@@ -55,7 +55,7 @@ void measure_sizes(const Scene& scene, const Case& parameters, IceParticulars& i
         // Unbroken ice has the size of its pieces in the file, which means nothing to the ship.
         if (group.hold == Hold::always) continue;
         const double size = size_of(shape_of(scene, i), group.orientation.toRotationMatrix());
-        ice.floe_size_min = std::fmin(ice.floe_size_min, size);  // fmin: NaN stands for none
+        ice.floe_size_min = std::fmin(ice.floe_size_min, size);  // fmin: NaN means none
         ice.floe_size_max = std::fmax(ice.floe_size_max, size);
         sum += size;
         ++ice.floes;
@@ -77,15 +77,15 @@ ShipParticulars measure_ship(const Scene& scene, const Case& parameters, double 
     ShipParticulars ship;
     // in the mesh's axes the water lies at -height
     ship.draught = -height - keel;
-    const auto form = measure_hull_form(hull.mesh, -height);
-    if (!form) return ship;
-    ship.length = form->length;
+    const auto dimensions = measure_hull_dimensions(hull.mesh, -height);
+    if (!dimensions) return ship;
+    ship.length = dimensions->length;
     if (scene.dimension == 2) return ship;
-    ship.breadth = form->breadth;
-    ship.stem_angle_deg = form->stem_angle * kDegreesPerRadian;
-    ship.entrance_angle_deg = form->entrance_angle * kDegreesPerRadian;
-    ship.parallel_length = form->parallel_length;
-    ship.bow_length = form->bow_length;
+    ship.breadth = dimensions->breadth;
+    ship.stem_angle_deg = dimensions->stem_angle * kDegreesPerRadian;
+    ship.entrance_angle_deg = dimensions->entrance_angle * kDegreesPerRadian;
+    ship.parallel_length = dimensions->parallel_length;
+    ship.bow_length = dimensions->bow_length;
     ship.displacement =
         parameters.water_density * measure_submerged(hull, Mat3::Identity(), height).volume;
     return ship;
@@ -140,7 +140,7 @@ void fill_particulars(const Scene& scene, const Case& parameters, double until, 
         went ? measure_ship(scene, parameters, went->height) : measure_ship(scene, parameters);
     summary.ship.speed_mean = went ? went->speed_mean : speed_mean(parameters, until);
     summary.ice = measure_ice(scene, parameters);
-    // a prescribed course first; a ship that answers has its own travel
+    // a prescribed course first; a free ship has its own travel
     summary.travel = measure_travel(parameters, summary.ship, until);
     if (!scene.water.grid.empty())
         summary.flow = {parameters.flow == FlowModel::file ? "file" : "double-body",

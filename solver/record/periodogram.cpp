@@ -18,12 +18,12 @@ constexpr double kWindow = 5.0;
 // Chance that a band without a line is said to have one [-]. More drops slow noise as lines, and
 // intervals become too narrow; less keeps lines, and they become too wide.
 constexpr double kLineChance = 0.01;
-// Ordinates that stay in a band at least [-]: fewer do not tell a line from noise.
+// Ordinates that stay in a band at least [-]: fewer do not distinguish a line from noise.
 constexpr std::size_t kLeastOrdinates = 4;
 // Standard deviations by which the halves of a band may differ [-]: with less, noise halves flat
-// bands in vain (one in twenty at 2); with more, a sloping spectrum passes for a flat one.
+// bands without need (one in twenty at 2); with more, a sloping spectrum passes for a flat one.
 constexpr double kDeviations = 2.0;
-// Periods of a line at least [-]: swings that the series holds more seldom move its mean.
+// Periods of a line at least [-]: periods that the series contains more seldom move its mean.
 constexpr std::size_t kFewestPeriods = 5;
 
 // Fisher's test of the largest of m exponential variables, against the mean of the others: with

@@ -27,7 +27,7 @@ struct Band {
 };
 
 /// Drops lines from ordinates first, first + 1, ... of a periodogram by Fisher's test at 1 %; never
-/// j < 5, periods that the series holds so seldom that they move its mean. Four ordinates stay.
+/// j < 5, periods that the series contains so seldom that they move its mean. Four ordinates stay.
 /// @param first  j of the first ordinate
 Band without_lines(std::span<const double> ordinates, std::size_t first = 1);
 

@@ -22,7 +22,7 @@ namespace ice {
 
 namespace {
 
-// The constant part of run.h5: with case, program and forms a report needs no other file, and the
+// The constant part of run.h5: with case, program and shapes a report needs no other file, and the
 // run can be made again.
 RunHeader make_header(const Case& parameters, const Scene& scene, const std::string& command) {
     RunHeader header;
@@ -46,7 +46,7 @@ RunHeader make_header(const Case& parameters, const Scene& scene, const std::str
     FlowArrows arrows = flow_arrows(scene);
     header.flow_point = std::move(arrows.point);
     header.flow_velocity = std::move(arrows.velocity);
-    header.ship_answers = parameters.ship.any_free();
+    header.ship_is_free = parameters.ship.any_free();
     header.tracked.assign(parameters.track.begin(), parameters.track.end());
     return header;
 }
@@ -203,7 +203,8 @@ void Recorder::add(const StepView& view) {
         add_frame(view);
 }
 
-// Under the rule "centres" bodies are their spheres, and round the edges of their solids.
+// Under the rule "centres" bodies are sets of spheres. These leave out the edges of the solids, so
+// overlaps of solids would be no fault there.
 bool Recorder::is_check_due(double time) const {
     return parameters_.normal == NormalRule::surface && std::llround(time / dt_) % kCheckEvery == 0;
 }
@@ -333,7 +334,7 @@ void Recorder::finish(const StepView& view, Summary& summary) {
     for (CsvFile& file : csv_files_) file.finish();
     fill_energy(view.ledger, potential_energy(view.scene, parameters_), summary);
     if (view.ship != nullptr) ship_statistics_.fill(*view.ship, view.scene, parameters_, summary);
-    statistics_.fill(summary);  // after the energies: its warnings look at them
+    statistics_.fill(summary);  // after the energies: its warnings use them
     panel_loads_.fill(summary);
     // row 0 is for parts without a name; a mesh with names mostly has no such parts
     const auto& names = view.scene.shapes[0].region_names;

@@ -35,7 +35,7 @@ struct StepView {
     const LiveEdge* edge = nullptr;  ///< null without level ice
 };
 
-/// Where the files of a run stand, for a run that is continued from them.
+/// Lengths of a run's files, for a run that is continued from them.
 struct RecordPosition {
     RunPosition run;
     std::vector<std::int64_t> csv_bytes;  ///< of forces.csv, then of the tracked floes' files
@@ -54,7 +54,7 @@ public:
     /// @throws Error (exit code 1) when it cannot.
     void open(const std::filesystem::path& folder, const std::string& command_line,
               const Scene& scene);
-    /// Goes on where an earlier run stood, from its files in `earlier`, which may be `folder`:
+    /// Continues an earlier run from its files in `earlier`, which may be `folder`:
     /// their first rows as far as `position`.
     /// @pre the state was carried over (run/state_fields.hpp)
     /// @return names of the files whose earlier rows are missing there: those begin now
@@ -62,19 +62,19 @@ public:
                                     const std::string& command_line, const Scene& scene,
                                     const std::filesystem::path& earlier,
                                     const RecordPosition& position);
-    /// Puts all rows up to now where a kill does not harm them, and tells how many there are.
+    /// Saves all rows up to now from a kill. @return their numbers
     RecordPosition save_rows();
-    /// Writes all rows up to now into their own files, and tells how many there are: for a run that
-    /// ends here.
+    /// Writes all rows up to now into their own files, for a run that ends here. @return their
+    /// numbers
     RecordPosition write_rows();
     /// Bytes of the rows of run.h5 that wait to be written.
     std::uint64_t waiting_bytes() const { return run_->waiting_bytes(); }
-    /// Will the next rows make it write them?
+    /// Will the next rows cause a write?
     bool is_about_to_write() const { return run_->is_about_to_write(); }
 
     void add(const StepView& view);
 
-    /// How a ship that answers went; nothing for a prescribed course.
+    /// How a free ship travelled; nothing for a prescribed course.
     std::optional<FreeTravel> travel(const StepView& view) const;
 
     /// Completes and renames the files, and fills the summary's recorded part.

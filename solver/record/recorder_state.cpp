@@ -73,7 +73,7 @@ void PanelLoads::carry(CheckpointFile& file) {
 void HullContacts::carry(CheckpointFile& file) {
     std::vector<std::pair<std::int32_t, std::int32_t>> keys;
     std::vector<Sum> sums;
-    for (const auto& [key, sum] : sums_) {  // a map goes as a table
+    for (const auto& [key, sum] : sums_) {  // a map is stored as a table
         keys.push_back(key);
         sums.push_back(sum);
     }
@@ -101,7 +101,7 @@ void RunStatistics::carry(CheckpointFile& file) {
     file.column("statistics.region_impulse", regions_, &Region::impulse);
     file.column("statistics.region_friction", regions_, &Region::friction);
 
-    // a set goes as a table
+    // a set is stored as a table
     std::vector<std::pair<std::int32_t, std::int32_t>> touching(touching_.begin(), touching_.end());
     file.column("statistics.touching_floe", touching,
                 &std::pair<std::int32_t, std::int32_t>::first);

@@ -25,7 +25,7 @@ constexpr double kKilo = 1e4;
 constexpr double kShown = 0.01;
 
 // Numbers in one unit and to one digit: a value, its interval and its parts then compare at a
-// glance. More digits than the interval is worth would look like knowledge.
+// glance. More digits would suggest a precision that the mean does not have.
 struct Format {
     double unit = 1.0;
     std::string name;

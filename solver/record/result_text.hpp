@@ -22,7 +22,7 @@ std::string resistance_line(const Summary& summary);
 /// broken ice Lindqvist's submersion resistance; "" where the summary has none.
 std::string formulas_line(const Summary& summary);
 
-/// The ship's work and where at least 1 % of it went, largest share first; "" when it did none.
+/// The ship's work and its uses of at least 1 %, largest share first; "" when it did none.
 /// All shares are in summary.json.
 std::string energy_line(const Summary& summary);
 

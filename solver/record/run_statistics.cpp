@@ -91,8 +91,8 @@ void RunStatistics::add_check(const OverlapFound& found, const StepRecord& recor
     if (is_averaged(time)) add_unseen_loads(worrying, record);
 }
 
-// How much of the load comes from floes whose overlap the contacts do not know, and how many floes
-// should press on the hull and do not: both say how far the mean may be off.
+// The share of the load from floes whose overlap the contacts do not show, and the number of floes
+// that should press on the hull and do not: both bound the error of the mean.
 void RunStatistics::add_unseen_loads(const std::vector<UnseenOverlap>& worrying,
                                      const StepRecord& record) {
     std::set<std::int32_t> pressing, doubtful, in_hull;

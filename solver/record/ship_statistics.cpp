@@ -18,11 +18,11 @@ namespace ice {
 
 namespace {
 
-// A ship that goes slower than this [m/s] for this time [s] counts as stuck in ice: it is noted in
+// A ship slower than this [m/s] for this time [s] counts as stuck in ice: it is noted in
 // the summary, and nothing else depends on it. Larger speeds or shorter times note ramming, too.
 constexpr double kSlow = 0.1;
 constexpr double kStuckTime = 10.0;
-// Ordinates of the periodogram in which a period is looked for [-]: the shortest is a 400th of the
+// Ordinates of the periodogram that are searched for a period [-]: the shortest is a 400th of the
 // series. More find shorter periods and take as much longer.
 constexpr std::size_t kMostOrdinates = 400;
 
@@ -52,7 +52,7 @@ void ShipStatistics::add(const FreeShip& ship, const Scene& scene, const Case& p
     if (std::abs(speed) >= kSlow) slow_since_ = time;
     stuck_ = stuck_ || time - slow_since_ >= kStuckTime;
     if (time < p.average_from - kTimeRounding) return;
-    // Speed along the heading, not along x: a ship that yaws still goes ahead.
+    // Speed along the heading, not along x: a ship that yaws still advances.
     speed_.add(speed);
     thrust_.add(ship.loads().thrust);
     tow_.add(ship.loads().tow.force.x());
@@ -71,7 +71,7 @@ void ShipStatistics::add(const FreeShip& ship, const Scene& scene, const Case& p
 }
 
 FreeTravel ShipStatistics::travel(const FreeShip& ship, const Scene& scene, const Case& p) const {
-    ICE_ASSERT(ship.answers());
+    ICE_ASSERT(ship.is_free());
     const Bodies& b = scene.bodies;
     const ShipRig& rig = ship.rig();
     const Vec3 centre = b.position[kShip] + b.rotation[kShip] * rig.body.centre_of_gravity;
@@ -82,7 +82,7 @@ FreeTravel ShipStatistics::travel(const FreeShip& ship, const Scene& scene, cons
 
 void ShipStatistics::fill(const FreeShip& ship, const Scene& scene, const Case& p,
                           Summary& summary) const {
-    ICE_ASSERT(ship.answers());
+    ICE_ASSERT(ship.is_free());
     const ShipRig& rig = ship.rig();
     std::map<std::string, double> out;
     out["mass_kg"] = rig.body.mass;

@@ -13,16 +13,16 @@ namespace ice {
 
 class CheckpointFile;
 
-/// The entries of summary.json on a ship that answers (docs/contract.md, section 5).
+/// The entries of summary.json on a free ship (docs/contract.md, section 5).
 class ShipStatistics {
 public:
     /// A step that ended at `time` [s]; means use those from average_from on.
     void add(const FreeShip& ship, const Scene& scene, const Case& parameters, double time);
 
-    /// How it went since the start. @pre it answers
+    /// Its travel since the start. @pre it is free
     FreeTravel travel(const FreeShip& ship, const Scene& scene, const Case& parameters) const;
 
-    /// Fills Summary::ship and the energies of the ship. @pre it answers
+    /// Fills Summary::ship and the energies of the ship. @pre it is free
     void fill(const FreeShip& ship, const Scene& scene, const Case& parameters,
               Summary& summary) const;
 

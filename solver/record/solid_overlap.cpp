@@ -10,7 +10,7 @@ namespace ice {
 
 namespace {
 
-// With more vertices than this [-] the seats stand for them: those of a fine hull are as close as
+// With more vertices than this [-] the seats represent them: those of a fine hull are as close as
 // its seats. More takes longer for each check; fewer may miss corners of coarse hulls.
 constexpr std::size_t kMostVertices = 1000;
 
@@ -108,7 +108,7 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         room = out.depth - depth;
         if (depth <= out.depth) return;
         if (sphere >= 0 && lies_in_notch(scene, a, sphere)) return;
-        // ice that contacts have crushed there is gone
+        // ice that contacts have crushed there is left out
         depth = way_out(scene, b, p, foot).depth;
         if (depth > out.depth) out = {depth, bodies.position[b] + bodies.rotation[b] * p};
     };
@@ -118,7 +118,7 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         if (!scene.crushed.is_whole(a) && !points.box.contains(center)) continue;
         add_point(center + points.radius[k] * points.normal[k], k);
     }
-    // a vertex of crushed ice may be gone
+    // a vertex of crushed ice may be crushed away
     if (scene.crushed.is_whole(a) && points.mesh.vertices.size() <= kMostVertices)
         for (const Vec3& v : points.mesh.vertices) add_point(v, -1);
     return out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// How deep solids lie in each other, whatever the contacts say.
+/// Depths by which solids overlap, measured without the contacts.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,13 @@
 
 namespace ice {
 
-/// A pair that lies deeper in each other than its contacts know.
+/// A pair whose solids overlap deeper than its contacts show.
 struct UnseenOverlap {
     std::int32_t a, b;
     double depth;  ///< deepest point less the contacts' own depth [m]
 };
 
-/// Overlaps found between all bodies; crushed ice is gone and no overlap.
+/// Overlaps found between all bodies; crushed ice is no overlap.
 struct OverlapFound {
     double deepest = 0.0;               ///< of two solids [m]
     std::vector<UnseenOverlap> unseen;  ///< in the order of the pairs
@@ -31,8 +31,8 @@ struct PairOverlap {
 
 // Overlaps by the bodies' meshes, without the contact finder: neither its pairs nor its gaps.
 //
-// Points of one body, its mesh's vertices and its spheres' seats as far as crushed, are looked for
-// in the other one and the other way round. A point's depth is its distance from the nearest point
+// Points of one body, its mesh's vertices and its spheres' seats as far as crushed, are tested in
+// the other body, and the other way round. A point's depth is its distance from the nearest point
 // of the other's mesh. An edge that crosses another edge between seats is missed by up to half a
 // spacing.
 
@@ -40,7 +40,7 @@ struct PairOverlap {
 /// @param contacts  of these poses or of those a step before, ordered by pair
 OverlapFound measure_overlaps(const Scene& scene, const std::vector<Contact>& contacts);
 
-/// One pair, whatever its contacts know.
+/// The overlap of one pair, without its contacts.
 PairOverlap measure_overlap(const Scene& scene, std::int32_t a, std::int32_t b);
 
 /// Does a point [m] of the world's axes lie in a body's mesh?

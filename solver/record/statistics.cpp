@@ -24,7 +24,7 @@ constexpr std::size_t kMost = 8192;
 constexpr std::size_t kNarrowest = 2;
 
 // White noise has a window of 3 samples, so an ordinate for 18: with more blocks than that, the
-// second look narrows no band that is flat.
+// second estimate narrows no band that is flat.
 constexpr std::size_t kBlocksPerOrdinate = 24;
 
 double mean_of(std::span<const double> series) {
@@ -82,7 +82,7 @@ std::optional<Band> low_band(const std::vector<double>& x) {
     const std::vector<double> ordinates = low_periodogram(x, *widest);
     std::size_t count = flat_band(ordinates);
     if (count < *widest) {
-        // noise hid slow correlation: look again at means that the noise has mostly left
+        // noise hid slow correlation: the estimate is repeated on means, in which noise is small
         std::vector<double> slow =
             blocks_of(x, std::max<std::size_t>(1, x.size() / (kBlocksPerOrdinate * count)));
         subtract_mean(slow);

@@ -11,9 +11,9 @@ namespace ice {
 /// line's end. @pre the mean is not 0
 Warning warn_of_trend(const Summary& summary);
 
-/// Averages over less than a ship length, as a warning with the share of the mean by which its
-/// interval says it is known. The text is the same for all members of an ensemble that travel
-/// alike. @pre the mean is not 0
+/// Averages over less than a ship length, as a warning. Its share is the interval over the mean
+/// [-]. The text is the same for all members of an ensemble that travel alike. @pre the mean is not
+/// 0
 Warning warn_of_short_averages(const Summary& summary);
 
 }  // namespace ice

@@ -98,6 +98,7 @@ double WindowForces::quantile(double share, std::int64_t windows) const {
 
 void WindowForces::carry(CheckpointFile& file, const std::string& name,
                          std::vector<WindowForces>& all) {
+    // a list of classes is stored as two columns, and made from them again when it is read
     std::vector<std::vector<double>> forces;
     std::vector<std::vector<std::int32_t>> numbers(all.size()), counts(all.size());
     for (std::size_t k = 0; k < all.size(); ++k) {

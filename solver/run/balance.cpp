@@ -13,7 +13,7 @@ namespace ice {
 
 namespace {
 
-// A sum that should vanish, and the size of what went into it.
+// A sum that should vanish, and the sum of its terms' magnitudes.
 struct Sum {
     Vec3 value = Vec3::Zero();
     double size = 0.0;
@@ -107,7 +107,7 @@ double imbalance_of_ship(const Momenta& before, const World& w, const StepRecord
     // about the centre of gravity, as (S1); the report's moment is about the mesh's origin
     const Vec3 ice_moment = reported.moment - b.ship.centre.cross(ice);
     const Mat3 to_axes = axes.translation.transpose(), to_rates = axes.rotation.inverse();
-    // Equations of motion in the ship's axes: along the axes that answer, the change of M v is the
+    // Equations of motion in the ship's axes: along the free axes, the change of M v is the
     // impulse of loads and ice. Fixed axes are left out, their reaction is unknown.
     const double linear = off_balance(
         body, surge, masses.translation, to_axes * w.ship.velocity_start(),
@@ -145,7 +145,7 @@ Imbalance measure_imbalance(const Momenta& before, const World& after) {
     const StepRecord reported = measure_step(after.scene, after.contacts, after.constraints, dt);
     const Sums all = all_together(before, after, reported, loads, sums);
     out.together = std::max(all.linear.share(axes), all.angular.share(turns));
-    if (after.ship.answers()) out.ship = imbalance_of_ship(before, after, reported, sums[kShip]);
+    if (after.ship.is_free()) out.ship = imbalance_of_ship(before, after, reported, sums[kShip]);
 
     for (std::size_t i = 1; i < b.size(); ++i) {
         if (b.held[i]) continue;

@@ -20,14 +20,14 @@ struct Momenta {
     ShipAngles ship_angles = ShipAngles::Zero();  ///< roll, pitch, yaw [rad]
 };
 
-/// How far a step was from balance, as a share of the magnitudes that should cancel [-].
+/// The imbalance of a step, as a share of the magnitudes that should cancel [-].
 struct Imbalance {
     double linear = 0.0;    ///< of the worst floe: change of P against loads and contact impulses
     double angular = 0.0;   ///< of the worst floe: change of L against the moments
-    double together = 0.0;  ///< momentum that all floes gained beyond the loads, against what the
-                            ///< forces reported for the ship and the impulses on held floes say
-    double ship = 0.0;      ///< momentum that a ship that answers gained beyond its own loads,
-                            ///< against those forces; 0 for a prescribed course
+    double together = 0.0;  ///< momentum that all floes gained beyond the loads, against the forces
+                            ///< reported for the ship and the impulses on held floes
+    double ship = 0.0;      ///< momentum that a free ship gained beyond its own loads, against
+                            ///< those forces; 0 for a prescribed course
     std::int32_t linear_floe = 0, angular_floe = 0;  ///< the worst ones; 0 where there is none
 
     /// The largest of them [-].
@@ -48,7 +48,7 @@ Momenta momenta_of(const World& world);
 ///
 ///     sum (P' - P - dt F) + dt f_ship + sum J_h = 0,   likewise for the moments.
 ///
-/// A ship that answers has in its free motions, with the matrix of (S1) at the step's start and F_s
+/// A free ship has in its free motions, with the matrix of (S1) at the step's start and F_s
 /// of thrust, lines and water,
 ///
 ///     (M + A) (v' - v) = dt F_s + dt f_ship,
@@ -57,7 +57,7 @@ Momenta momenta_of(const World& world);
 /// lines, held ice and the constraints of locked motions change the momentum of ship and floes, and
 /// nothing else does.
 ///
-/// Each residual is divided by the sum of the magnitudes of its terms; 2D looks at x, z and the
+/// Each residual is divided by the sum of the magnitudes of its terms; 2D compares x, z and the
 /// moment about y only.
 Imbalance measure_imbalance(const Momenta& before, const World& after);
 

@@ -25,7 +25,7 @@ constexpr double kMostCells = 4e6;
 // spheres and of its mesh, whose edges reach beyond them where they are sharp.
 class Front {
 public:
-    // @param direction  +1 or -1: the ship goes along x or against it
+    // @param direction  +1 or -1: the ship moves along x or against it
     Front(const Scene& scene, double direction) : direction_(direction) {
         const Shape& hull = scene.shapes[0];
         const Vec3 place = scene.bodies.position[kShip];
@@ -45,13 +45,13 @@ public:
                          place + hull.mesh.vertices[t[2]]);
     }
 
-    // How far the ship goes until it meets the cube around a sphere, in whose corners the edges and
+    // The ship's travel until it meets the cube around a sphere, in whose corners the edges and
     // corners of its floe lie; infinite where that is not in its path.
     double distance_to(const Vec3& centre, double radius) const {
         double least = kNever;
         for (int k = 0; k < 9; ++k) {
             const int beside = k % 3 - 1, above = k / 3 - 1;
-            // nine points of the cube's face that looks at the ship
+            // nine points of the cube's face towards the ship
             least = std::min(least,
                              distance_to_point(centre + radius * Vec3(-direction_, beside, above)));
         }
@@ -84,7 +84,7 @@ private:
         const double column = std::floor((p.y() - low_.y()) / cell_);
         const double row = std::floor((p.z() - low_.z()) / cell_);
         double x = foremost(column, row);
-        // a cell without a sphere among others: its neighbours tell
+        // a cell without a sphere among others: its neighbours are used
         for (int k = 0; x == -kNever && k < 9; ++k) {
             const int beside = k % 3 - 1, above = k / 3 - 1;
             x = std::max(x, foremost(column + beside, row + above));
@@ -113,7 +113,8 @@ private:
     std::vector<double> foremost_;
 };
 
-// When the ship has gone a distance along its course [s]. @pre its speed does not change sign
+// Time at which the ship has travelled a distance along its course [s]. @pre its speed does not
+// change sign
 double time_of(const Case& p, double distance) {
     // bisection: travel grows with time as the speed keeps its sign
     if (!(std::abs(p.ship_travel(0.0, p.duration)) > distance)) return kNever;
@@ -129,7 +130,7 @@ double time_of(const Case& p, double distance) {
 void measure_clearance(const World& w, const Front& front, Course& course) {
     const Bodies& b = w.scene.bodies;
     course.clearance = course.clearance_fixed = kNever;
-    if (w.edge.lives())  // the sheet's tiles come with the ship
+    if (w.edge.has_sheet())  // the sheet's tiles come with the ship
         course.clearance =
             std::max(w.parameters.level_ice.extent[0] - box_of(w.scene, kShip).max().x(), 0.0);
     for (std::size_t i = 1; i < b.size(); ++i) {
@@ -147,10 +148,10 @@ void measure_clearance(const World& w, const Front& front, Course& course) {
     }
 }
 
-// How far the ship goes until its foremost point is beyond all loose floes within its breadth.
+// The ship's travel until its foremost point is beyond all loose floes within its breadth.
 double distance_through(const World& w, double direction) {
     const Eigen::AlignedBox3d hull = box_of(w.scene, kShip);
-    double far = w.edge.lives() ? w.parameters.level_ice.extent[1] : -kNever;
+    double far = w.edge.has_sheet() ? w.parameters.level_ice.extent[1] : -kNever;
     for (std::size_t i = 1; i < w.scene.bodies.size(); ++i) {
         if (is_unbroken(w.scene, w.parameters, i)) continue;
         const Eigen::AlignedBox3d box = box_of(w.scene, i);
@@ -169,7 +170,7 @@ bool any_floe_moves(const Bodies& b) {
 // Whether neither the ship nor any ice or water has a speed.
 bool nothing_moves(const World& w) {
     const Case& p = w.parameters;
-    return !w.ship.answers() && p.current == std::array{0.0, 0.0} &&
+    return !w.ship.is_free() && p.current == std::array{0.0, 0.0} &&
            std::all_of(p.speed_table.begin(), p.speed_table.end(),
                        [](const auto& row) { return row.second == 0.0; });
 }
@@ -239,7 +240,7 @@ Course measure_course(const World& w) {
 std::vector<Warning> check_course(const World& w) {
     std::vector<Warning> warnings;
     const Case& p = w.parameters;
-    if (p.ship.free[surge]) return warnings;  // it goes as it can
+    if (p.ship.free[surge]) return warnings;  // its speed is a result
     if (any_floe_moves(w.scene.bodies)) return warnings;
     if (nothing_moves(w)) {
         // the mean is zero, and a share of it has no meaning

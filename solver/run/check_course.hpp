@@ -28,13 +28,13 @@ struct Course {
 Course measure_course(const World& world);
 
 /// Warns of a ship that never meets the ice, meets it after the averages began, leaves it before
-/// they end, or runs into unbroken ice, and of a captive ship at rest in ice and water at rest.
-/// Nothing is said of a ship whose path ends where it began, or where floes have velocities of
-/// their own.
+/// they end, or runs into unbroken ice, and of a ship on a prescribed course at rest in ice and
+/// water at rest. No warning for a ship whose path ends where it began, or if floes have velocities
+/// of their own.
 std::vector<Warning> check_course(const World& world);
 
 /// Warns of averages over less than a ship's length, with the duration that makes it one; under the
-/// same conditions. It has no verdict: the run's summary says how far the mean is affected
+/// same conditions. It has no verdict: the run's summary states the effect on the mean
 /// (RunStatistics).
 std::optional<Warning> warn_of_short_averages(const World& world);
 

@@ -19,7 +19,7 @@ namespace ice {
 
 namespace {
 
-// A part of the hull in the ice belt that is worth a warning when no sphere stands for it: the
+// A part of the hull in the ice belt that is worth a warning when no sphere represents it: the
 // edges of a deck or a transom in full-bodied hulls stay below it. A share of the area [-]: a
 // larger one leaves such parts unsaid, a smaller one warns of edges; only the warning depends on
 // it.
@@ -177,7 +177,7 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
         found[k] = {a, b, pair.depth, pair.point, pair.inside};
     });
 
-    // A contact may be deeper than what the meshes alone show: the larger depth counts.
+    // A contact may be deeper than the meshes alone show: the larger depth counts.
     std::vector<Contact> contacts;
     ContactFinder().find(scene, pairs, ContactRule(parameters), 0.0, 0.0, contacts);
     std::size_t k = 0;
@@ -191,7 +191,7 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
         found[k].depth = -c.gap;
         found[k].point = c.point;
     }
-    // what position correction tolerates, (12), is no fault of the case
+    // overlap that position correction tolerates, (12), is no fault of the case
     std::erase_if(found, [&](const StartOverlap& o) {
         return o.depth <= kToleratedOverlap * std::min(smallest_radius(shape_of(scene, o.a)),
                                                        smallest_radius(shape_of(scene, o.b)));

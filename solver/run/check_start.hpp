@@ -20,7 +20,7 @@ struct StartOverlap {
 /// All pairs of bodies that overlap by more than kToleratedOverlap, the deepest first. The spheres
 /// add nothing to it: they stay within their solid to 1e-6 of the radius.
 ///
-/// Surfaces are compared as in a step, and the solids as a run looks at them
+/// Surfaces are compared as in a step, and the solids as a run checks them
 /// (record/solid_overlap.hpp), since a body deep inside another one meets no surface there. Floes
 /// that are held count, too; unbroken ice (hold "always") may overlap unbroken ice.
 /// @param scene  unchanged at the end
@@ -29,7 +29,7 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
 /// Looks at a world that was just built.
 /// @return warnings: the ship or a floe is faster than tunnelling_speed; spheres farther apart than
 ///         kWidestSpacing, with the rule "centres" than they are wide; part of the hull in the ice
-///         belt that no sphere stands for; overlaps, where allowed
+///         belt that no sphere represents; overlaps, where allowed
 /// @throws Error (exit code 2) naming the bodies that overlap, how deep and where, unless
 ///         `allow_overlap`
 std::vector<Warning> check_start(World& world, bool allow_overlap);

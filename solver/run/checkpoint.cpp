@@ -19,7 +19,7 @@ using Direction = CheckpointFile::Direction;
 // The identity of a checkpoint's run.
 struct Identity {
     std::string resolved;               // the case, every key
-    std::vector<std::uint64_t> shapes;  // hash of the hull's form, then of each group's floes
+    std::vector<std::uint64_t> shapes;  // hash of the hull's shape, then of each group's floes
 };
 
 std::uint64_t hash_of(const Shape& shape) {
@@ -29,8 +29,8 @@ std::uint64_t hash_of(const Shape& shape) {
         for (const Vec3& p : points)
             for (int d = 0; d < 3; ++d) hash.add(p[d]);
     };
-    // All that the solver reads of a form is hashed: a sphere set made anew with other options must
-    // not continue a run, though its file has the same name.
+    // All that the solver reads of a shape is hashed: a sphere set made anew with other options
+    // must not continue a run, though its file has the same name.
     add(shape.center);
     add(shape.normal);
     add(shape.mesh.vertices);
@@ -56,10 +56,10 @@ Identity identity_of(const World& w) {
     const Bodies& b = w.scene.bodies;
     std::vector<std::uint64_t> of_row;
     for (const Shape& shape : w.scene.shapes) of_row.push_back(hash_of(shape));
-    // the floes of a field have forms of their own
+    // the floes of a field have shapes of their own
     std::vector<StateHash> of_group(w.parameters.floes.size());
     for (std::size_t i = 1; i < b.size(); ++i)
-        if (!w.edge.has_slot(i))  // whose forms are state
+        if (!w.edge.has_slot(i))  // whose shapes are state
             of_group[static_cast<std::size_t>(b.group[i])].add(
                 of_row[static_cast<std::size_t>(b.shape[i])]);
     Identity identity{w.parameters.resolved, {of_row[0]}};
@@ -181,7 +181,7 @@ SavedRun read_checkpoint(const std::filesystem::path& path, World& world) {
                    std::filesystem::absolute(path).parent_path(),
                    file.created_by()};
     carry(file, world);
-    if (world.edge.lives()) world.edge.restore(world.scene, world.parameters);
+    if (world.edge.has_sheet()) world.edge.restore(world.scene, world.parameters);
     saved.recorder.carry(file);
     carry(file, saved.position);
     carry(file, saved.progress);

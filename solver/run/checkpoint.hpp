@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Stopping a run and going on with it to the same bits.
+/// Stopping a run and continuing it to the same bits.
 #pragma once
 
 #include <filesystem>

@@ -37,9 +37,9 @@ std::string ship_line(const World& w, const ShipParticulars& ship) {
     return out;
 }
 
-// A ship that answers: its free motions and its equilibrium.
+// A free ship: its free motions and its equilibrium.
 std::string motion_line(const World& w) {
-    if (!w.ship.answers()) return {};
+    if (!w.ship.is_free()) return {};
     constexpr const char* kNames[] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
     const ShipRig& rig = w.ship.rig();
     std::vector<std::string> free;
@@ -64,7 +64,7 @@ std::string motion_line(const World& w) {
 
 // Level ice has no floes yet; its line has the size of cracks, by which a wrong strength shows.
 std::string ice_line(const World& w, const IceParticulars& ice) {
-    if (w.edge.lives()) {
+    if (w.edge.has_sheet()) {
         const auto& extent = w.parameters.level_ice.extent;
         if (w.edge.is_strip())
             return fmt::format(
@@ -116,7 +116,7 @@ std::string course_line(const World& w, const ShipParticulars& ship, const Cours
 
 std::string spheres_line(const World& w) {
     const Shape& hull = w.scene.shapes[0];
-    // The first ice shape stands for all: a field's shapes share radius and spacing.
+    // The first ice shape represents all: a field's shapes share radius and spacing.
     std::string out = fmt::format("  spheres    hull {:.3g} m, {:.3g} m apart", hull.largest_radius,
                                   hull.spacing);
     if (w.scene.shapes.size() > 1)

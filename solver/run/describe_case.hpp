@@ -12,7 +12,7 @@ namespace ice {
 /// numbers by which a user sees a wrong draught, unit or duration.
 std::string describe_case(const World& world);
 
-/// Ice and release rules in one line, for the resistance to stand beside.
+/// Ice and release rules in one line, printed beside the resistance.
 std::string describe_rules(const Summary& summary);
 
 }  // namespace ice

@@ -10,7 +10,7 @@
 namespace ice {
 
 /// Upper bound of a run's files and memory, before run.h5 is compressed. Touches of hull and floes,
-/// whose number nobody knows beforehand, are not in it.
+/// whose number is not known beforehand, are not in it.
 struct RunCost {
     std::int64_t steps = 0, rows = 0, frames = 0;  ///< of the run, of each history, poses stored
     double run_file = 0.0;                         ///< run.h5 [B]
@@ -19,8 +19,8 @@ struct RunCost {
 };
 RunCost run_cost(const Case& parameters, std::size_t floes, std::size_t regions);
 
-/// One line for `icesolve --check`: time from some first steps, which the world then has gone, disk
-/// and memory. The time is a lower bound where the ship has not met the ice yet, and says so.
+/// One line for `icesolve --check`: time from some first steps, which the world has then made, disk
+/// and memory. The time is a lower bound if the ship has not met the ice yet; the line states this.
 std::string describe_cost(World& world);
 
 /// Allows the run the files that it keeps open, one for each tracked floe and some more: raises the

@@ -19,8 +19,8 @@ namespace ice {
 
 namespace {
 
-// Rows between two looks at the disk [bytes]. A larger value reserves as much more room, a smaller
-// one looks at the disk more often.
+// Rows between two checks of the disk [bytes]. A larger value reserves as much more room, a smaller
+// one checks the disk more often.
 constexpr std::uint64_t kStride = 1 << 16;
 // HDF5's blocks and indices, summary.json and run.log [bytes]. All bounds here are generous: a
 // larger value stops a run a little early, a smaller one leaves a file cut.
@@ -29,7 +29,7 @@ constexpr std::uint64_t kEnd = 1 << 19;
 constexpr std::uint64_t kFields = 1 << 16, kPerBody = 400, kPerContact = 400;
 // Of a checkpoint per step [bytes]: statistics remember forces of LongSeries::kMost steps.
 constexpr std::uint64_t kPerStep = 64;
-// Rows in the CSV files between two looks [bytes]: text takes at most 25 bytes for the 8 of a
+// Rows in the CSV files between two checks [bytes]: text takes at most 25 bytes for the 8 of a
 // number, and the streams buffer some.
 constexpr std::uint64_t kTextStride = 4 * kStride, kTextBuffer = 1 << 14;
 constexpr const char* kRows = "run.h5.part";
@@ -94,7 +94,7 @@ int allocate_ahead(const std::filesystem::path& path, std::uint64_t bytes) {
 
 bool DiskRoom::could_hold(std::uint64_t rows, std::uint64_t text_rows, std::uint64_t end) {
     if (!can_hold_) return true;
-    // The rows' blocks are allocated in their own files; what comes at the end of a run is
+    // The rows' blocks are allocated in their own files; the rows of the end of a run are
     // reserved in a file without a name.
     int reason = allocate_ahead(folder_ / kRows, rows);
     for (const auto& path : csv_files(folder_))
@@ -111,14 +111,14 @@ bool DiskRoom::could_hold(std::uint64_t rows, std::uint64_t text_rows, std::uint
 
 DiskRoom::~DiskRoom() {
     release();
-    // what the files did not need of their blocks
+    // returns the blocks that the files did not need
     std::vector<std::filesystem::path> files = csv_files(folder_);
     files.insert(files.end(), {folder_ / "run.h5", folder_ / kRows});
     for (const std::filesystem::path& path : files)
         if (const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC); file >= 0) {
             struct stat state {};
             if (::fstat(file, &state) == 0 && ::ftruncate(file, state.st_size) != 0)
-                looked_ = false;  // they stay allocated, which harms nobody
+                looked_ = false;  // they stay allocated, without harm
             ::close(file);
         }
 }
@@ -149,7 +149,7 @@ bool DiskRoom::is_short(const Recorder& recorder, const World& world, bool saves
                                      kPerContact * world.constraints.size() + kPerStep * kept +
                                      world.edge.bytes_of_gone();
     const std::uint64_t more =
-        waiting + 2 * kStride + kFrameFloeBound * bodies;  // at the next look
+        waiting + 2 * kStride + kFrameFloeBound * bodies;  // at the next check
     // a checkpoint comes with a copy of the rows since the last one
     const std::uint64_t file = bytes_of(folder_ / kRows);
     const std::uint64_t copy = saves ? file - std::min(file, saved_bytes_) + kEnd : 0;

@@ -10,13 +10,13 @@
 
 namespace ice {
 
-/// Tells a run when to stop for want of room. A file that a full disk cuts while it is written is
-/// past mending; a run that stops with some room left completes its files and writes a checkpoint.
+/// Decides when a run has to stop for want of room. A file that a full disk cuts off cannot be
+/// mended; a run that stops with some room left completes its files and writes a checkpoint.
 ///
 /// Other programs may fill the disk at once, so that room is held where the file system can
 /// (fallocate): for rows within run.h5 and the CSV files, for the rest by a file without a name,
-/// which goes with the program, however that ends. Elsewhere the free space is read, which
-/// knows no quotas. The limit of a single file (ulimit -f) counts, too.
+/// which ends with the program, however that ends. Elsewhere the free space is read, without
+/// quotas. The limit of a single file (ulimit -f) counts, too.
 class DiskRoom {
 public:
     explicit DiskRoom(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -27,7 +27,7 @@ public:
     /// Is there less room than the waiting rows, a checkpoint and the end of the files may take? To
     /// be called before every step; reads the disk before rows are written and once per some
     /// 64 kB of them.
-    /// @param saves  a checkpoint with a copy of its rows comes next: looks, and counts the copy
+    /// @param saves  a checkpoint with a copy of its rows comes next: checks now, with the copy
     bool is_short(const Recorder& recorder, const World& world, bool saves = false);
     /// A checkpoint was written: the next one copies the rows from here on.
     void saved();
@@ -44,7 +44,7 @@ private:
     std::uint64_t held_bytes_ = 0;
     std::uint64_t saved_bytes_ = 0;  // of run.h5.part at the last checkpoint
     bool looked_ = false, can_hold_ = true;
-    std::uint64_t waiting_ = 0;  // when it looked
+    std::uint64_t waiting_ = 0;  // at the last check
 };
 
 }  // namespace ice

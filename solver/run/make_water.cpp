@@ -41,7 +41,7 @@ constexpr auto kOthersWork = std::chrono::minutes(10);
 // cent of a channel's resistance. It scales a warning's share alone.
 constexpr double kOfMean = 0.25;
 
-// Extent along z in the form's own axes [m], 0 without floes: the flow has to be resolved over a
+// Extent along z in the shape's own axes [m], 0 without floes: the flow has to be resolved over a
 // floe's height, and floes mostly lie flat.
 double thinnest_floe(const Scene& scene) {
     double out = std::numeric_limits<double>::infinity();
@@ -92,7 +92,7 @@ std::filesystem::path kept_as(const std::filesystem::path& spheres, std::uint64_
 }
 
 // Of several runs at once the first makes a flow, the others wait for it. The lock is a file of its
-// own, gone afterwards; where none can be made, each makes its own.
+// own, removed afterwards; where none can be made, each makes its own.
 class OneMaker {
 public:
     explicit OneMaker(const std::filesystem::path& flow)

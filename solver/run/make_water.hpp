@@ -20,7 +20,7 @@ namespace ice {
 WaterFlow make_water(const Case& parameters, const Scene& scene);
 
 /// Warns of speeds at which the water's surface does not stay flat (a Froude number above 0.2), and
-/// of a flow that goes through the hull.
+/// of a flow that passes through the hull.
 std::vector<Warning> check_water(const Case& parameters, const Scene& scene);
 
 }  // namespace ice

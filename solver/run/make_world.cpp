@@ -39,7 +39,7 @@ void require_dimension(const SphereSet& set, int dimension, const char* what) {
             "fill hull and floes by the same function, and set Case::dimension");
 }
 
-// Row of the floes with this rule of release; groups are how a case tells its floes apart.
+// Row of the floes with this rule of release: a case has one group for each rule.
 std::int32_t group_of(Case& parameters, Hold hold) {
     auto& groups = parameters.floes;
     const auto known = std::find_if(groups.begin(), groups.end(),
@@ -82,7 +82,7 @@ std::int32_t add_floe_shape(World& world, const SphereSet& floe) {
 }
 
 std::size_t add_floe(World& world, std::int32_t shape, const FloeStart& start) {
-    // later neighbour lists and statistics would not know the floe
+    // the floe would be missing in existing neighbour lists and statistics
     ICE_ASSERT(world.steps == 0);
     Case& p = world.parameters;
     const auto& shapes = world.scene.shapes;

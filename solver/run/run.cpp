@@ -34,8 +34,8 @@ StepView view_of(const World& w) {
             w.ledger,
             w.time,
             w.impacts.converged && w.rest.converged,
-            w.ship.answers() ? &w.ship : nullptr,
-            w.edge.lives() ? &w.edge : nullptr};
+            w.ship.is_free() ? &w.ship : nullptr,
+            w.edge.has_sheet() ? &w.edge : nullptr};
 }
 
 // A body farther away than this [m] is a fault: no course is so long. Larger lets a run that fails
@@ -55,7 +55,7 @@ void check_finite(const World& w) {
 
 // A step that must balance; the summary keeps the worst of each kind.
 void verified_step(World& w, Summary& summary) {
-    begin_step(w);  // momenta are compared between bodies of one form
+    begin_step(w);  // momenta are compared between bodies of one shape
     const Momenta before = momenta_of(w);
     step(w);
     const Imbalance found = require_balance(before, w);
@@ -66,7 +66,7 @@ void verified_step(World& w, Summary& summary) {
     keep("floe_momentum", found.linear);
     keep("floe_angular_momentum", found.angular);
     keep("ship_and_floes", found.together);
-    if (w.ship.answers()) keep("ship", found.ship);
+    if (w.ship.is_free()) keep("ship", found.ship);
 }
 
 // The summary's part on the program and its run. Wall times differ between equal runs; all other
@@ -89,7 +89,7 @@ void write_summary(const World& w, const RunOptions& options, double wall_second
                    Recorder& recorder, Summary& summary) {
     // before the summary is completed: means over ship lengths need the travel
     fill_particulars(w.scene, w.parameters, w.time, summary, recorder.travel(view_of(w)));
-    recorder.finish(view_of(w), summary);  // its warnings look at the travel
+    recorder.finish(view_of(w), summary);  // its warnings use the travel
     if (auto warning = warn_of_open_end(w.scene, w.parameters, summary.travel.distance))
         summary.warnings.push_back(*warning);
     fill_run(w, wall_seconds, summary);
@@ -210,7 +210,7 @@ bool is_due(const Job& job) {
 void advance(Job& job) {
     World& w = job.world;
     while (w.steps < job.steps) {
-        // room is looked at before the step: what it writes must fit
+        // room is checked before the step: its output must fit
         if (job.room.is_short(job.recorder, w)) return stop_for_room(job);
         if (job.options.verify)
             verified_step(w, job.summary);
@@ -249,7 +249,7 @@ Summary run(World& world, const RunOptions& options) {
     world.ship.begin(p, world.scene);
     create_folder(options.folder);
     std::string command = options.command_line;
-    std::replace(command.begin(), command.end(), '\n', ' ');  // it stands in a comment
+    std::replace(command.begin(), command.end(), '\n', ' ');  // it is part of a comment
     write_text_file(
         options.folder / "case.resolved.cfg",
         fmt::format("# icesolve {} ({})\n# {}\n{}", version(), git_commit(), command, p.resolved));
@@ -271,7 +271,7 @@ Summary run(World& world, const RunOptions& options) {
         go_on(job, *options.saved);
     else
         start(job);
-    if (world.edge.lives()) world.edge.keep_gone_in(options.folder);
+    if (world.edge.has_sheet()) world.edge.keep_gone_in(options.folder);
     summary.warnings.insert(summary.warnings.end(), job.progress.warnings.begin(),
                             job.progress.warnings.end());
     summary.warnings.insert(summary.warnings.end(), options.course_warnings.begin(),

@@ -56,7 +56,7 @@ void carry(CheckpointFile& file, World& w) {
     file.column("impulses.rest_tangent", w.constraints, &Constraint::rest_tangent);
 }
 
-// Where the files stood: rows behind these belong to steps that a resumed run makes again.
+// Lengths of the files: later rows belong to steps that a resumed run makes again.
 void carry(CheckpointFile& file, RecordPosition& position) {
     file.carry("files.samples", position.run.samples);
     file.carry("files.frames", position.run.frames);

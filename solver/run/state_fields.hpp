@@ -18,7 +18,7 @@ struct RunProgress {
 /// WarmStart::carry, FreeShip::carry and LiveEdge::carry theirs.
 ///
 /// To add a field: give it a line there. Nothing else is needed, but that its name is new and its
-/// type one of CheckpointFile's; an array per body goes through carry_each(), a table through one
+/// type one of CheckpointFile's; an array per body is carried by carry_each(), a table by one
 /// column() per member. Quantities that the next step computes anew (contacts, loads, grids,
 /// velocities from momenta) is no state. A checkpoint without the field is then refused with the
 /// version that wrote it. The test "a run continued from a checkpoint ends with the same bits"

@@ -11,7 +11,7 @@ void update_derived(Bodies& bodies, std::size_t i) {
     bodies.rotation[i] = bodies.orientation[i].toRotationMatrix();
     // The ship's motion is prescribed, or that of FreeShip: it has no momentum in these arrays.
     if (i == kShip) return;
-    // Held ice answers no impulse: its inverse mass is zero. Its momentum is kept, since ice may
+    // No impulse moves held ice: its inverse mass is zero. Its momentum is kept, since ice may
     // drift at a constant velocity.
     if (bodies.held[i]) {
         bodies.velocity[i] = bodies.momentum[i] / bodies.mass[i];  // of ice that drifts
@@ -27,7 +27,7 @@ void update_derived(Bodies& bodies, std::size_t i) {
     bodies.inverse_inertia_world[i] = ordered_turned(r, bodies.inverse_inertia(i));
     bodies.velocity[i] = bodies.momentum[i] / bodies.mass[i];
     if (bodies.have_added_mass()) {
-        bodies.inverse_mass_excess[i] = ordered_turned(r, bodies.inertias_of(i).inverse_excess);
+        bodies.inverse_mass_excess[i] = ordered_turned(r, bodies.inertia_row_of(i).inverse_excess);
         bodies.velocity[i] += ordered_product(bodies.inverse_mass_excess[i], bodies.momentum[i]);
     }
     bodies.angular_velocity[i] =

@@ -27,7 +27,7 @@ struct Inertia {
     Mat3 inverse_excess = Mat3::Zero();  ///< (m + A)^-1 - 1/m, at most 0 [1/kg]
 };
 
-/// How the ship answers impulses, in world axes, for the step; all zero for a prescribed course.
+/// The ship's response to impulses, in world axes, for the step; all zero for a prescribed course.
 ///
 /// An impulse j [N s] at r [m] from `centre` changes its velocity by inverse_mass j and its angular
 /// velocity by inverse_inertia (r x j). The motions that are not free take up the rest of j.
@@ -44,7 +44,7 @@ struct ShipResponse {
 ///
 /// Momentum and angular momentum are the state (docs/method.md, section 1); velocities and world
 /// inverse inertias are derived from them at known points of a step. A held floe and the ship have
-/// inverse mass and inertia zero: no impulse moves them, but for a ship that answers (`ship`).
+/// inverse mass and inertia zero: no impulse moves them, but for a free ship (`ship`).
 struct Bodies {
     // set by build_scene, constant
     std::vector<std::int32_t> shape;        ///< row of Scene::shapes
@@ -101,7 +101,7 @@ struct Bodies {
         const Vec3 own = inverse_mass[i] * j;
         return have_added_mass() ? Vec3(own + inverse_mass_excess[i] * j) : own;
     }
-    const Inertia& inertias_of(std::size_t i) const {
+    const Inertia& inertia_row_of(std::size_t i) const {
         return inertias[static_cast<std::size_t>(inertia_row[i])];
     }
     const Mat3& inertia(std::size_t i) const {

@@ -59,7 +59,7 @@ std::vector<Vec3> place_group(const FloeGroup& group, const Vec3& low, const Vec
     return places;
 }
 
-// Floes of one form, in rows and columns. They are placed and not moved apart: check_start() finds
+// Floes of one shape, in rows and columns. They are placed and not moved apart: check_start() finds
 // overlaps.
 void add_group(Scene& scene, const Case& parameters, std::size_t g, std::int32_t shape_row) {
     const FloeGroup& group = parameters.floes[g];
@@ -82,7 +82,7 @@ void add_group(Scene& scene, const Case& parameters, std::size_t g, std::int32_t
                 throw bad_input(fmt::format("floes.{}", g + 1),
                                 "ice as dense as water has no floating equilibrium",
                                 "state z in position, or lower ice.density");
-            // one search for all floes of the group: form, density and orientation are the same
+            // one search for all floes of the group: shape, density and orientation are the same
             if (std::isnan(height)) height = floating_height(shape, rotation, fraction);
             place.z() = height;
         }
@@ -128,7 +128,7 @@ void add_field_group(Scene& scene, const Case& parameters, std::size_t g, ShapeR
     for (const FieldFloe& floe : field.floes) {
         if (floe.fixed != group.unbroken_part) continue;
         const std::int32_t row = first_row + floe.shape;
-        // each floe of a field may have a form of its own
+        // each floe of a field may have a shape of its own
         const double height = floating_height(scene.shapes[static_cast<std::size_t>(row)],
                                               floe.orientation.toRotationMatrix(), fraction);
         const Vec3 place(group.origin[0] + floe.position[0], group.origin[1] + floe.position[1],
@@ -140,7 +140,7 @@ void add_field_group(Scene& scene, const Case& parameters, std::size_t g, ShapeR
 }
 
 // The row of a shape's moments of inertia, made where its newest is of another density. Thousands
-// of floes of one form share a row, which the lanes of the loads then load once.
+// of floes of one shape share a row, which the lanes of the loads then load once.
 std::int32_t share_inertia(Scene& scene, std::int32_t shape_row, double density) {
     Bodies& b = scene.bodies;
     b.inertia_of_shape.resize(scene.shapes.size(), -1);
@@ -168,7 +168,7 @@ Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity) {
     scene.dimension = hull.dimension;
     scene.ship_velocity = velocity;
     scene.shapes.push_back(std::move(hull));
-    // body 0, with zeros for everything that a prescribed course does not answer
+    // body 0, with zeros for everything that has no effect on a prescribed course
     Bodies& b = scene.bodies;
     b.shape.push_back(0);
     b.group.push_back(-1);

@@ -9,7 +9,7 @@
 
 namespace ice {
 
-/// Depths to which contact has crushed the ice. Crushed ice is gone for good, so its sphere lies
+/// Depths to which contact has crushed the ice. Crushed ice does not recover, so its sphere lies
 /// deeper in the floe. Mass, buoyancy and drag remain those of the whole floe.
 struct CrushedIce {
     /// By body, up to the last one that was ever crushed: its first row of displacement, -1 while

@@ -5,7 +5,7 @@
 
 namespace ice {
 
-/// Speed [m/s] at which a body goes the diameter of the smallest contact sphere within a time_step.
+/// Speed [m/s] at which a body moves by the diameter of the smallest contact sphere in a time_step.
 ///
 /// A body's surface is a layer of spheres to others: beyond this speed they may pass through it
 /// (tunnel) without having met it. The hull's spheres count, too, also in a scene without floes.

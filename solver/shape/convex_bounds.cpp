@@ -83,7 +83,7 @@ double share_within(const ConvexBounds& bounds, const BoundedSphere& s) {
 }  // namespace
 
 ConvexBounds::ConvexBounds(const TriangleMesh& mesh, std::span<const BoundedSphere> spheres) {
-    // too many corners or planes to be worth testing: the form counts as unknown
+    // too many corners or planes to be worth testing: the shape counts as unknown
     if (!list_corners(mesh, corners) || !list_normals(mesh, normals)) {
         corners.clear();
         normals.clear();

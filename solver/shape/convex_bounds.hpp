@@ -20,7 +20,7 @@ struct BoundedSphere {
 /// axes.
 ///
 /// Taken from the mesh: its vertices, and a plane through the foremost of them along each facet's
-/// normal. A form of more than kMost different normals or vertices (a hull of thousands of
+/// normal. A shape of more than kMost different normals or vertices (a hull of thousands of
 /// triangles) has none: a test of them would cost more than it saves.
 struct ConvexBounds {
     /// Normals or vertices at most [-]: a prism floe of 18 sides has 20 and 36. More gives more

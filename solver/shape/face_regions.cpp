@@ -11,7 +11,7 @@ namespace ice {
 namespace {
 
 // Normals of one region this near (cosine [-]; 2.6 degrees) are one face's: curved hulls have many.
-// Larger stores more faces for a sphere, with the same answers; smaller may miss a border.
+// Larger stores more faces for a sphere, with the same results; smaller may miss a border.
 constexpr double kSameRegionNormal = 0.999;
 
 // A face whose normal is nearer by less than this (cosine [-]) lies in the same plane: the nearer
@@ -90,7 +90,7 @@ std::int32_t FaceRegions::at(std::int32_t sphere, const Vec3& n) const {
     const auto k = static_cast<std::size_t>(sphere);
     std::int32_t region = of_sphere_[k];
     if (first_.empty()) return region;
-    // the face whose normal is nearest to the contact's tells the region of a sphere in an edge
+    // a sphere in an edge: the region of the face whose normal is nearest to the contact's
     double nearest = -2.0;  // below any cosine
     for (std::size_t f = first_[k]; f < first_[k + 1]; ++f) {
         const double along = n.dot(faces_[f].normal);

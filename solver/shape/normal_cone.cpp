@@ -46,7 +46,7 @@ NormalCone NormalCone::turned(const Mat3& turn) const {
 
 double NormalCone::least_along(const Vec3& n, double around) const {
     ICE_ASSERT(count > 0);
-    // into the solid it goes against the parts: along each of a corner's edges, or within each of
+    // into the solid it is opposite to the parts: along each of a corner's edges, or within each of
     // an edge's faces and along the edge; a face's or the solid's points go so far along several
     const auto along = [&](std::size_t k) { return n.dot(part[k]) * per_length[k]; };
     const double last = count == 2 ? std::abs(n.dot(part[2])) : along(2);

@@ -105,7 +105,7 @@ void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape
 }
 
 // Numbers the feature types by their first spheres. Pairs of types share their separating axes, so
-// that a box floe of 240 spheres has 26 types to look at (docs/design-notes.md).
+// that a box floe of 240 spheres has 26 types (docs/design-notes.md).
 void number_feature_types(Shape& shape) {
     std::map<std::array<double, 18>, std::int32_t> known;
     for (std::size_t k = 0; k < shape.center.size(); ++k) {

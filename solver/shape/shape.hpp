@@ -22,7 +22,7 @@
 
 namespace ice {
 
-/// A form in its body axes: floes about the centre of mass, the hull in the ship frame.
+/// A body's shape in its own axes: floes about the centre of mass, the hull in the ship frame.
 struct Shape {
     int dimension = 3;
 
@@ -36,7 +36,7 @@ struct Shape {
     /// Spheres of one feature type differ in place, area and region only.
     std::vector<std::int32_t> feature_type;
     std::size_t feature_types = 0;  ///< number of types: feature_type holds 0 ... feature_types - 1
-    /// Rank by place, mirror images about y = 0 alike. Decisions and orders that look at this
+    /// Rank by place, mirror images about y = 0 alike. Decisions and orders that use this
     /// before any index keep mirror-image states mirror images, bit for bit.
     std::vector<std::int32_t> mirror_rank;
     std::vector<double> area;  ///< share of the surface [m2]; 2D: a length [m]

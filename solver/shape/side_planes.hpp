@@ -16,12 +16,12 @@ struct Shape;
 /// Side planes: the planes at which the faces and edges of surface spheres end.
 ///
 /// A sphere represents the surface within the shape's patch radius, even where its face ends
-/// nearer. The face ends at the planes of the neighbouring faces, which the spheres of convex edges
-/// and vertices nearby know. An edge ends at a plane that is next to both of its faces.
+/// nearer. The face ends at the planes of the neighbouring faces, which the spheres of nearby
+/// convex edges and vertices store. An edge ends at a plane that is next to both of its faces.
 ///
-/// No side planes have: vertices, rounded edges, and spheres farther than twice the patch radius
-/// and a radius from every edge. Concave edges, and convex ones that are hollow in plan, give no
-/// side plane: no plane ends the face there without cutting off a part of it.
+/// Without side planes are: vertices, rounded edges, and spheres farther than twice the patch
+/// radius and a radius from every edge. Concave edges, and convex ones that are hollow in plan,
+/// give no side plane: no plane ends the face there without cutting off a part of it.
 class SidePlanes {
 public:
     SidePlanes() = default;

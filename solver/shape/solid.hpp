@@ -42,7 +42,7 @@ private:
 /// An edge of a convex piece: where two of its planes meet.
 struct SolidEdge {
     std::int32_t begin, end;   ///< corners
-    std::int32_t left, right;  ///< planes; from begin to end it goes along n_left x n_right
+    std::int32_t left, right;  ///< planes; from begin to end it runs along n_left x n_right
 };
 
 /// A side plane of a face: the plane through one of its edges, upright on the face.
@@ -53,7 +53,7 @@ struct SidePlane {
 
 /// A convex polyhedron: planes, corners and edges; body axes.
 ///
-/// Coplanar triangles of the mesh are one plane. Planes, corners and edges stand in an order that
+/// Coplanar triangles of the mesh are one plane. Planes, corners and edges are in an order that
 /// mirror images about y = 0 have in common but for the images themselves.
 struct ConvexPiece {
     /// With more planes or corners than this [-] a piece is not made: curved surfaces are none. All

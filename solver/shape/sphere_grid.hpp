@@ -19,7 +19,7 @@ namespace ice {
 class SphereGrid {
 public:
     SphereGrid() = default;
-    /// @param points  sphere centres [m]; empty gives a grid that answers nothing
+    /// @param points  sphere centres [m]; empty gives a grid that finds nothing
     /// @param cell    wanted edge of a cell [m], > 0; enlarged where the box would need more than
     ///                four cells per point
     SphereGrid(std::span<const Vec3> points, double cell) { build(points, cell); }

@@ -16,7 +16,7 @@ double delivered_power(const Propulsion& p, double thrust, double speed) {
     // thrust_at() rounds to a little more than 0 there
     if (speed >= p.open_water_speed) return std::numeric_limits<double>::infinity();
     // (S2) inverted: the thrust of 1 W at this speed, and the power of the thrust's 3/2
-    Propulsion watt;  // thrust goes with the power to 2/3
+    Propulsion watt;  // thrust is proportional to power^(2/3)
     watt.power = 1.0;
     watt.propeller_diameter = p.propeller_diameter;
     watt.screws = p.screws;

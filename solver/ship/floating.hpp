@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// How a ship floats: the exact force of still water on it, its equilibrium and its stability
-/// (docs/method.md, section 14).
+/// (docs/method.md, section 13).
 #pragma once
 
 #include "solver/ship/ship_body.hpp"

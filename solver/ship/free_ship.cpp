@@ -42,7 +42,7 @@ void FreeShip::begin(const Case& p, Scene& scene) {
 }
 
 void FreeShip::place(Scene& scene, double height, const ShipAngles& angles) {
-    ICE_ASSERT(answers());
+    ICE_ASSERT(is_free());
     Bodies& b = scene.bodies;
     // the ship turns about its centre of gravity, which keeps its place in the plane
     const Vec3 before = b.rotation[kShip] * rig_->body.centre_of_gravity;
@@ -58,7 +58,7 @@ void FreeShip::start_step(const Case& p, Scene& scene, double time) {
     Bodies& b = scene.bodies;
     // Speed in the middle of the step: the displacement of a linear speed table is then exact.
     const Vec3 course(p.ship_speed(time + 0.5 * p.time_step), 0.0, 0.0);
-    if (answers()) {
+    if (is_free()) {
         // The free motions go on with the velocity of the last step; the others follow the
         // course.
         const ShipAxes axes = axes_of(angles_);
@@ -87,7 +87,7 @@ ShipState FreeShip::state_of(const Bodies& b, double time) const {
 }
 
 void FreeShip::apply_loads(const Case& p, Scene& scene, double time) {
-    if (!answers()) return;
+    if (!is_free()) return;
     Bodies& b = scene.bodies;
     loads_ = measure_ship_loads(p, scene.shapes[0], *rig_, state_of(b, time), scene.water.current,
                                 speed_error_);
@@ -105,7 +105,7 @@ void FreeShip::apply_loads(const Case& p, Scene& scene, double time) {
 }
 
 // (M + dt D / 2) dv = dt (F - D v): damping by the mean of the velocities before and after the
-// loads, which neither overshoots nor changes what it damps to second order.
+// loads. It does not overshoot, and its error is of second order.
 void FreeShip::add_damping(const Case& p, Scene& scene) {
     const Bodies& b = scene.bodies;
     const Vec3 translation = of_three(rig_->damping, surge),
@@ -137,7 +137,7 @@ void FreeShip::add_damping(const Case& p, Scene& scene) {
 
 void FreeShip::enter_step(const Scene& scene, const std::vector<Constraint>& constraints,
                           const PositionCorrections& corrections, double dt) {
-    if (!answers()) return;
+    if (!is_free()) return;
     const Bodies& b = scene.bodies;
     const ShipAxes axes = axes_of(angles_);
     // (S3): each force times the mean of the step's first and last velocity, free motions only
@@ -163,7 +163,7 @@ void FreeShip::enter_step(const Scene& scene, const std::vector<Constraint>& con
 }
 
 void FreeShip::turn(Scene& scene, const PositionCorrections& corrections, double dt) {
-    if (!answers()) return;
+    if (!is_free()) return;
     Bodies& b = scene.bodies;
     const ShipAxes axes = axes_of(angles_);
     const ShipMasses masses = masses_of(rig_->body, angles_);
@@ -185,7 +185,7 @@ void FreeShip::turn(Scene& scene, const PositionCorrections& corrections, double
 }
 
 double FreeShip::kinetic_energy(const Bodies& b) const {
-    if (!answers()) return 0.0;
+    if (!is_free()) return 0.0;
     const ShipAxes axes = axes_of(angles_);
     const ShipMasses masses = masses_of(rig_->body, angles_);
     const Vec3 v = free_part(rig_->body, surge, axes.translation.transpose() * b.velocity[kShip]);
@@ -194,7 +194,7 @@ double FreeShip::kinetic_energy(const Bodies& b) const {
 }
 
 double FreeShip::potential_energy(const Scene& scene, const Case& p) const {
-    if (!answers() || !rig_->body.floats()) return 0.0;
+    if (!is_free() || !rig_->body.floats()) return 0.0;
     const Bodies& b = scene.bodies;
     return floating_energy(scene.shapes[0], rig_->body, b.rotation[kShip], b.position[kShip].z(),
                            p.water_density, p.gravity);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The ship of a run: on its prescribed course, or free to answer (docs/method.md, section 14).
+/// The ship of a run: on its prescribed course, or free (docs/method.md, section 13).
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace ice {
 
 class CheckpointFile;
 
-/// Where the energy of a ship that answers goes, in its free motions, since the start [J]:
+/// The energy ledger of a free ship, in its free motions, since the start [J]:
 ///
 ///     thrust + tow + mooring + separation = ice + losses + dK + dU + residual,
 ///
@@ -30,10 +30,10 @@ struct ShipEnergies {
     }
 };
 
-/// Answers forces in the motions that are free, and keeps to Case::ship_speed in the others.
+/// Forces change the motions that are free; the others keep to Case::ship_speed.
 ///
 /// The motion is that of the centre of gravity, with the matrix of mass and added mass
-/// (docs/method.md, section 14): symplectic Euler as for floes, linear damping at the middle of the
+/// (docs/method.md, section 13): symplectic Euler as for floes, linear damping at the middle of the
 /// step. Added mass turns with the ship; what that does to a turning ship's velocity (Munk's
 /// moment) is left out. With no freedom nothing differs from a body that moves as prescribed.
 class FreeShip {
@@ -41,14 +41,14 @@ public:
     /// Puts the ship where it floats, with masses. Once; nothing to do for a prescribed course.
     /// @throws Error (exit code 2) as make_ship_rig
     void begin(const Case& parameters, Scene& scene);
-    /// Puts it into another attitude, its centre of gravity over the same point. @pre it answers
+    /// Puts it into another attitude, its centre of gravity over the same point. @pre it is free
     /// @param height  of the mesh's origin [m]
     void place(Scene& scene, double height, const ShipAngles& angles);
-    bool answers() const { return rig_.has_value(); }
-    /// @pre it answers
+    bool is_free() const { return rig_.has_value(); }
+    /// @pre it is free
     const ShipRig& rig() const { return *rig_; }
 
-    /// Beginning of a step: prescribed velocities, and how the ship answers impulses in it.
+    /// Beginning of a step: prescribed velocities, and the ship's response to impulses in it.
     /// @param time  at the start of the step [s]
     void start_step(const Case& parameters, Scene& scene, double time);
     /// Loads change the velocity over a time_step. @param time  at the start of the step [s]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The ship as a rigid body with the water that moves along: masses, axes, how it answers.
+/// The ship as a rigid body with the water that moves along: masses, axes, response to impulses.
 #pragma once
 
 #include <array>
@@ -64,7 +64,7 @@ ShipMasses masses_of(const ShipBody& body, const ShipAngles& angles);
 /// The unit is the inverse of the matrix's. @param first  surge or roll
 Mat3 inverse_on_free(const Mat3& matrix, const ShipBody& body, Freedom first);
 
-/// How the ship answers impulses in that attitude: the inverses of (S1). @param angles  [rad]
+/// Response of the ship to impulses in that attitude: the inverses of (S1). @param angles  [rad]
 ShipResponse response_of(const ShipBody& body, const ShipAngles& angles);
 
 }  // namespace ice

@@ -16,7 +16,7 @@ namespace {
 // steps that are good enough.
 constexpr double kMostSwing = 0.5;
 
-// Gravity in the answer's time of the controls [m/s2], also where a case has none. Controls settle
+// Gravity in the time constant of the controls [m/s2], also where a case has none. Controls settle
 // sooner with more; means do not depend on it.
 constexpr double kUsualGravity = 9.81;
 
@@ -70,7 +70,7 @@ void add_propulsion(const Case& p, const ShipRig& rig, const ShipState& s, const
                     const Vec3& current, double speed_error, ShipLoads& out) {
     const Vec3 ahead = axes.translation.col(0);
     const double through_water = ahead.dot(s.velocity - current);
-    const double tau = rig.answer_time;
+    const double tau = rig.control_time;
     if (std::isnan(p.propulsion.hold_speed)) {
         out.thrust = thrust_at(p.propulsion, through_water);
     } else {
@@ -139,7 +139,7 @@ ShipRig make_ship_rig(const Case& p, const Scene& scene) {
     place.z() = rig.equilibrium.height;
     rig.anchor = place + rotation * rig.body.centre_of_gravity;
     rig.towed_from = place + rotation * p.tow.point;
-    rig.answer_time = std::sqrt(scene.shapes[0].box.sizes().x() / kUsualGravity);
+    rig.control_time = std::sqrt(scene.shapes[0].box.sizes().x() / kUsualGravity);
     set_damping(p, rig);
     return rig;
 }
@@ -149,6 +149,8 @@ ShipLoads measure_ship_loads(const Case& p, const Shape& hull, const ShipRig& ri
     ShipLoads out;
     const ShipAxes axes = axes_of(s.angles);
     const Mat3 rotation = orientation_of(s.angles).toRotationMatrix();
+    // a ship that neither heaves, rolls nor pitches keeps its height: the water's force has no
+    // effect
     if (rig.body.floats()) {
         const FloatingForce f =
             floating_force(hull, rig.body, rotation, s.position.z(), p.water_density, p.gravity);
@@ -157,6 +159,7 @@ ShipLoads measure_ship_loads(const Case& p, const Shape& hull, const ShipRig& ri
     add_propulsion(p, rig, s, axes, current, speed_error, out);
     add_tow(p, rig, s, rotation, out);
     add_mooring(p, rig, s, rotation, axes, out);
+    // -w x (I + A') w of (S1)
     if (rig.body.turns()) {
         const Vec3 added(rig.body.added[roll], rig.body.added[pitch], rig.body.added[yaw]);
         const Vec3 spin = rotation.transpose() * s.angular_velocity;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Forces on a ship that answers, other than the ice's (docs/method.md, section 14).
+/// Forces on a free ship other than the ice's (docs/method.md, section 13).
 #pragma once
 
 #include "solver/ship/floating.hpp"
@@ -47,10 +47,10 @@ struct ShipRig {
     Vec3 anchor = Vec3::Zero();  ///< centre of gravity at the start [m]
     ShipAngles anchor_angles = ShipAngles::Zero();
     Vec3 towed_from = Vec3::Zero();  ///< the towed point at the start [m]
-    /// [s]: speed hold answers with T_P = m (e / tau + int e dt / (4 tau^2)), e = hold_speed - U,
+    /// [s]: speed hold gives T_P = m (e / tau + int e dt / (4 tau^2)), e = hold_speed - U,
     /// heading hold with 2 omega I dpsi/dt + omega^2 I psi, omega = 1 / (4 tau): both without
     /// overshoot. tau = sqrt(length / (9.81 m/s2)): a choice, which a mean does not depend on.
-    double answer_time = 1.0;
+    double control_time = 1.0;
 };
 
 /// Masses, equilibrium and damping of a case's ship.

@@ -114,7 +114,7 @@ ShipMatrix read_ship_matrix(const std::filesystem::path& file) {
 
 Mat6 moved(const Mat6& matrix, const Vec3& arm) {
     // The velocity of the old point is T times that of the new one, T = [1, [arm x]; 0, 1];
-    // equal energy gives M' = T^T M T (section 14).
+    // equal energy gives M' = T^T M T (section 13).
     Mat6 to_old = Mat6::Identity();
     for (int k = 0; k < 3; ++k) to_old.block<3, 1>(0, 3 + k) = arm.cross(Vec3::Unit(k));
     return to_old.transpose() * matrix * to_old;

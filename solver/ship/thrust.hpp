@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Thrust and open-water resistance of a ship (docs/method.md, section 14).
+/// Thrust and open-water resistance of a ship (docs/method.md, section 13).
 #pragma once
 
 #include "solver/case/ship_keys.hpp"

@@ -15,7 +15,7 @@ namespace ice {
 ///
 /// A contact touches when gap + dt min(v_r . n, 0) <= 0: the criterion of the impacts, so that a
 /// floe is free in the impact that releases it.
-/// @return true when a floe was released, so that contacts must be looked for again
+/// @return true when a floe was released, so that contacts must be searched again
 bool release_touched(Scene& scene, const Case& parameters, const std::vector<Contact>& contacts);
 
 }  // namespace ice

@@ -39,8 +39,8 @@ double contact_margin(const Case& p) {
     return kMargin + lift * p.gravity * p.time_step * p.time_step;
 }
 
-// The edge of level ice breaks and goes with the ship: the contacts of bodies that have another
-// form now are forgotten. Mass that comes into the scene or leaves it is no work.
+// The edge of level ice breaks and follows the ship: the contacts of bodies that have another
+// shape now are forgotten. Mass that comes into the scene or leaves it is no work.
 void renew_edge(World& w) {
     w.edge.drift_until(w.time);
     if (!w.edge.is_due(w.scene)) return;
@@ -83,8 +83,8 @@ void step(World& w) {
     Bodies& bodies = w.scene.bodies;
     begin_step(w);
 
-    // 1 ship: as prescribed, its speed at mid-step carrying it to the end of the step, or with the
-    // velocity it has come to
+    // 1 ship: a prescribed course takes the speed at mid-step; a free ship keeps its velocity of
+    // the last step
     w.ship.start_step(w.parameters, w.scene, w.time);
     w.scene.water.follow(bodies.position[kShip], w.scene.ship_velocity);
 

@@ -49,7 +49,7 @@ struct World {
     Overlaps overlaps;
     Recess recess;
     BentFloes bent;
-    StepStart start;  ///< of the step in hand
+    StepStart start;  ///< of the present step
     EnergyLedger ledger;
 
     SolveReport impacts, rest;  ///< of the last step
@@ -58,7 +58,7 @@ struct World {
 };
 
 /// Releases the floes that the last step's loads broke, and renews the edge of level ice, where
-/// bodies change their form. step() begins with it; where it was called before, nothing is left.
+/// bodies change their shape. step() begins with it; a second call has no effect.
 void begin_step(World& world);
 
 /// Advances the world by parameters.time_step. Afterwards `constraints` hold the step's impulses.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Integrals over what a flow meets of wetted surfaces, compiled once per instruction set. The
+// Integrals over the wetted surface that faces the flow, compiled once per instruction set. The
 // mathematics is in wetted_sums_reference.cpp. Mul then Add, not MulAdd: a fused product would
-// differ from it.
+// give other bits.
 #include "solver/water/wetted_sums.hpp"
 
 #undef HWY_TARGET_INCLUDE

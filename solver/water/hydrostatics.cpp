@@ -31,7 +31,7 @@ std::pair<double, double> vertical_extent(const Shape& shape, const Mat3& rotati
 
 Submerged measure_submerged(const Shape& shape, const Mat3& rotation, double height) {
     Submerged out;
-    // a sphere about the origin decides many cases without a look at the triangles
+    // a sphere about the origin decides many cases without the triangles
     if (height >= shape.bounding_radius) return out;
     const WaterPlane water(rotation, height);
     WettedIntegrals wet;

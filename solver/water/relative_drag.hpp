@@ -8,7 +8,7 @@
 
 namespace ice {
 
-/// Force and moment, and what of their work is lost.
+/// Force and moment, and the power that drag dissipates.
 struct RelativeDrag : WaterLoad {
     double loss = 0.0;  ///< -int u . dF >= 0 [W], D of (25): the rest of -(F . v + T . w) goes to
                         ///< the water

@@ -35,7 +35,7 @@
 #include "common/base/timer.hpp"
 #include "common/geometry/mass_properties.hpp"
 #include "preprocess/fill/lattice.hpp"
-#include "preprocess/fill/shell.hpp"
+#include "preprocess/fill/make_layer.hpp"
 #include "tests/bench/machine.hpp"
 #include "tests/support/make_hull.hpp"
 
@@ -141,7 +141,7 @@ void layer_ours(Table& table, const Hull& hull, int threads) {
     std::size_t count = 0;
     const Cost cost = least_cost(2, [&] {
         const SurfaceTree tree(hull.mesh);
-        count = make_shell(tree, {hull.radius, hull.radius, 3, true}).size();
+        count = make_layer(tree, {hull.radius, hull.radius, 3, true}).size();
     });
     table.add("ours: surface layer", hull, threads, {count, cost, {}, false});
 }

@@ -20,7 +20,7 @@
 #include "common/base/timer.hpp"
 #include "preprocess/clean/weld.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
-#include "preprocess/fill/shell.hpp"
+#include "preprocess/fill/make_layer.hpp"
 #include "preprocess/load/read_mesh.hpp"
 #include "preprocess/measure/mirror_symmetry.hpp"
 #include "tests/bench/machine.hpp"
@@ -57,7 +57,7 @@ void print_layer(const char* name, const TriangleMesh& mesh, double radius, int 
             if (mirror && !is_mirror_symmetric(tree)) continue;
             std::size_t count = 0;
             const Times layer = least_times(runs, [&] {
-                count = make_shell(tree, {radius, radius, 3, mirror}).size();
+                count = make_layer(tree, {radius, radius, 3, mirror}).size();
             });
             fmt::print("{:>12} {:>9} {:>6} {:>7} {:>9} {:>10.2f} {:>10.2f} {:>9.2f} {:>8.3f}\n",
                        name, mesh.triangles.size(), mirror ? "yes" : "no", threads, count,

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""free_ship_test.py PROGRAMS [FOLDER]: a ship free in surge, and a captive one in the same ice.
+"""free_ship_test.py PROGRAMS [FOLDER]: the same ice, with and without a prescribed course.
 
 A flared wedge of 6 m goes through rows of floes that are released as it touches them. Held at a
-speed by its thrust, the free ship's mean resistance is within the captive ship's interval. The
-speed to which a net thrust brings it is the one at which that thrust meets the captive ships'
-resistances, within both intervals, as `icepost hv` finds them. FOLDER keeps the runs."""
+speed by its thrust, the free ship's mean resistance is within the interval of the
+ship on a prescribed course. The speed to which a net thrust brings it is the one at which that
+thrust meets the resistance on a prescribed course, within both intervals, as `icepost hv` finds
+them. FOLDER keeps the runs."""
 import csv
 import json
 import pathlib
@@ -75,7 +76,7 @@ def speeds_of(folder):
         "--csv", "hv.csv")
     found = {}
     for row in csv.DictReader((folder / "hv.csv").open(encoding="utf-8", newline="")):
-        if row["source"] in ("fixed course", "free ship"):
+        if row["source"] in ("prescribed course", "free ship"):
             found[row["source"]] = [float(row[k]) for k in ("speed", "speed_low", "speed_high")]
             print(f"{row['source']}: {row['speed']} m/s, {row['speed_low']} to {row['speed_high']}")
     return found
@@ -90,11 +91,11 @@ def check(folder):
     run(folder, PROGRAMS / "spherize", "floe.obj", "-r", "0.1", "-o", "floe.h5")
     (folder / "case.cfg").write_text(CASE, encoding="utf-8")
     surge = "ship.free=['surge']"
-    captive = {u: solve(folder, f"runs/captive-{u}", u) for u in SPEEDS}
+    prescribed = {u: solve(folder, f"runs/prescribed-{u}", u) for u in SPEEDS}
     held = solve(folder, "held", SPEED, surge, f"propulsion.hold_speed={SPEED}")
 
-    on_course, steered = captive[SPEED]["resistance"], held["resistance"]
-    print(f"{SPEED} m/s: captive {on_course['mean_N']:.1f} +- {on_course['ci95_N']:.1f} N, held "
+    on_course, steered = prescribed[SPEED]["resistance"], held["resistance"]
+    print(f"{SPEED} m/s: prescribed {on_course['mean_N']:.1f} +- {on_course['ci95_N']:.1f} N, held "
           f"{steered['mean_N']:.1f} +- {steered['ci95_N']:.1f} N")
     assert abs(steered["mean_N"] - on_course["mean_N"]) <= on_course["ci95_N"]
     assert on_course["ci95_N"] < 0.1 * on_course["mean_N"]
@@ -102,14 +103,14 @@ def check(folder):
     assert abs(held["ship"]["speed_mean"] - SPEED) < 0.02, held["ship"]["speed_mean"]
     assert abs(held["ship"]["thrust_mean_N"] - steered["mean_N"]) < 0.03 * steered["mean_N"]
 
-    # a thrust that meets the captive ship's resistance at its speed
+    # a thrust that meets the resistance on a prescribed course at its speed
     pull = on_course["mean_N"] / (1 - SPEED / OPEN_WATER / 3 - 2 / 3 * (SPEED / OPEN_WATER)**2)
     solve(folder, "runs/free", SPEED, surge, f"propulsion.bollard_pull={pull}",
           f"propulsion.open_water_speed={OPEN_WATER}")
     (folder / "thrust.toml").write_text(f"[[thrust]]\nname = 'net'\nbollard_pull = {pull}\n"
                                         f"open_water_speed = {OPEN_WATER}\n", encoding="utf-8")
     found = speeds_of(folder)
-    (_, low, high), (_, free_low, free_high) = found["fixed course"], found["free ship"]
+    (_, low, high), (_, free_low, free_high) = found["prescribed course"], found["free ship"]
     assert low <= free_high and free_low <= high, found
     assert high - low < SPEED and free_high - free_low < SPEED, found
 

@@ -23,7 +23,7 @@ using namespace ice::test;
 namespace {
 
 // The icebreaker of the tables: L 95, B 22, T 8, alpha 30, parallel body and bow 33 and 24 m.
-HullForm icebreaker(double phi = 25.0) {
+HullDimensions icebreaker(double phi = 25.0) {
     return {95.0, 22.0, 8.0, phi * kDegree, 30.0 * kDegree, 33.0, 24.0};
 }
 
@@ -60,7 +60,7 @@ TEST_CASE("Lindqvist's total is within 15 % of six values that others computed",
           "[formulas][published]") {
     // Fan and others (2019), Table 3, as an open code tests them; E is not stated, 9 GPa fits. The
     // formula's prefactor is uncertain, so this is a test of sanity
-    const HullForm hull{118.0, 21.5, 7.5, 21.0 * kDegree, 33.0 * kDegree};
+    const HullDimensions hull{118.0, 21.5, 7.5, 21.0 * kDegree, 33.0 * kDegree};
     struct Pin {
         double speed, thickness, force;
     };
@@ -83,7 +83,7 @@ TEST_CASE("Riska's total of the icebreaker is that of an independent script",
           tolerance(1.0));
     CHECK(std::abs(1e-3 * riska_resistance(icebreaker(), metre_of_ice(6)) - 1146.0) <
           tolerance(1.0));
-    HullForm unknown = icebreaker();
+    HullDimensions unknown = icebreaker();
     unknown.bow_length = std::nan("");
     CHECK(std::isnan(riska_resistance(unknown, metre_of_ice(2))));
 }
@@ -105,7 +105,7 @@ TEST_CASE("Jeong's parts of the icebreaker are those of an independent script",
 TEST_CASE("Jeong's coefficients give the published values of MT Uikku within 4.3 kN",
           "[formulas][published]") {
     // Hu and Zhou (2016), IJNAOE 8:169, column "Jeong"; B, T and the densities were searched for
-    const HullForm hull{150.0, 21.3, 9.5, 30.0 * kDegree, 21.0 * kDegree};
+    const HullDimensions hull{150.0, 21.3, 9.5, 30.0 * kDegree, 21.0 * kDegree};
     struct Row {
         double h, strength, speed, force;  // m, kPa, m/s, kN
     };
@@ -122,7 +122,7 @@ TEST_CASE("formulas grow from 2 to 6 knots as the design's table says", "[formul
     const auto growth = [](const auto& total) {
         return total(metre_of_ice(6)) / total(metre_of_ice(2));
     };
-    const HullForm hull = icebreaker();
+    const HullDimensions hull = icebreaker();
     CHECK(growth([&](const IceConditions& i) { return lindqvist_resistance(hull, i).total(); }) ==
           Near(1.55).margin(0.01));
     CHECK(growth([&](const IceConditions& i) { return riska_resistance(hull, i); }) ==
@@ -160,7 +160,7 @@ TEST_CASE("forces scale with Froude's law: lengths by s, strengths by s, speeds 
           "[formulas][property]") {
     // what no formula with units of its own (Riska) can do, and the other two must
     const double s = 25.0;
-    HullForm model = icebreaker();
+    HullDimensions model = icebreaker();
     for (double* length : {&model.length, &model.breadth, &model.draught}) *length /= s;
     const IceConditions full = metre_of_ice(4);
     IceConditions small = full;

@@ -7,11 +7,10 @@
 using namespace ice;
 using namespace ice::test;
 
-TEST_CASE("the motion of a ship that answers comes back, row by row and frame by frame",
-          "[formats]") {
+TEST_CASE("the motion of a free ship comes back, row by row and frame by frame", "[formats]") {
     const TempFolder folder;
     RunData run = make_run({.frames = 3});
-    run.header.ship_answers = true;
+    run.header.ship_is_free = true;
     for (std::size_t k = 0; k < run.history.size(); ++k) {
         const double t = run.history[k].time;
         run.history[k].ship_velocity = Vec3(1.0 + t, 0.25, -t);
@@ -27,7 +26,7 @@ TEST_CASE("the motion of a ship that answers comes back, row by row and frame by
     write_run(folder / "run.h5", run);
 
     const RunData back = read_run(folder / "run.h5");
-    CHECK(back.header.ship_answers);
+    CHECK(back.header.ship_is_free);
     REQUIRE(back.history.size() == run.history.size());
     constexpr double kAngle = 1e-6;  // of floats, as stored in frames [rad]
     for (std::size_t k = 0; k < run.history.size(); ++k) {

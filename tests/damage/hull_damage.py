@@ -143,7 +143,7 @@ def skin(mesh, dice):
 
 
 def posts(mesh, dice):
-    """Square tubes above the deck that lack an end: small planar holes, up to 1.5 % of doubt."""
+    """Square tubes above the deck that lack an end: small planar openings, up to 1.5 % of doubt."""
     low, high = box_of(mesh.vertices)
     count = dice.between(8, 30)
     # half of the steepest slope that counts, 85 degrees, times area^2 / perimeter

@@ -54,20 +54,20 @@ Quaternion turn(Dice& dice) {
 }
 
 // Floes about a ship, some out of the table, some over the water, some under it.
-World floes_in_flow(const Case& p, std::size_t count, std::size_t forms, Dice& dice) {
+World floes_in_flow(const Case& p, std::size_t count, std::size_t shapes, Dice& dice) {
     World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
-    std::vector<std::int32_t> form{
+    std::vector<std::int32_t> shape{
         test::add_shape(w, test::make_box_set(Vec3(1.0, 0.8, 0.3), 0.05, 0.1))};
-    if (forms > 1) {  // more corners than are kept
+    if (shapes > 1) {  // more corners than are kept
         SphereSet ball = test::make_ball_set(0.4);
         ball.mesh = test::make_globe(0.4, 7);
-        form.push_back(test::add_shape(w, ball));
+        shape.push_back(test::add_shape(w, ball));
     }
     Bodies& b = w.scene.bodies;
     for (std::size_t k = 0; k < count; ++k) {
         const Vec3 at(3.5 * dice.number(), 3.0 * dice.number(), 0.5 * dice.number() - 0.2);
         const std::size_t i =
-            add_floe(w.scene, form[k / 3 % forms], 900.0, at, turn(dice), 0, false);
+            add_floe(w.scene, shape[k / 3 % shapes], 900.0, at, turn(dice), 0, false);
         if (k % 4 != 3) b.velocity[i] = dice.vector();
         if (k % 3 != 2) b.angular_velocity[i] = dice.vector();
     }
@@ -144,10 +144,10 @@ TEST_CASE("every instruction set loads floes in moving water to the bits of the 
     Case p = water_case(GENERATE(0.01, 10.0));  // in the longer step drag stops most of them
     p.drag = GENERATE(DragModel::none, DragModel::projected, DragModel::panel);
     const bool symmetric = GENERATE(true, false);
-    const std::size_t forms = GENERATE(1u, 2u);
+    const std::size_t shapes = GENERATE(1u, 2u);
     Dice dice{std::mt19937(6)};
     for (std::size_t count = 1; count <= 18; ++count) {
-        World w = floes_in_flow(p, count, forms, dice);
+        World w = floes_in_flow(p, count, shapes, dice);
         w.scene.dimension = count % 6 == 5 ? 2 : 3;
         w.scene.water.grid = FlowGrid(rough_table(symmetric));
         if (count % 4 == 1) w.scene.water.current = Vec3(0.3, -0.2, 0.0);
@@ -196,10 +196,10 @@ TEST_CASE("a current brings a floe to its speed as the book says, and its ledger
     p.buoyancy = BuoyancyModel::none;
     World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
     const Vec3 size(1.0, 0.8, 0.3);
-    const auto form = test::add_shape(w, test::make_box_set(size, 0.05, 0.1));
+    const auto shape = test::add_shape(w, test::make_box_set(size, 0.05, 0.1));
     // wholly under water, where nothing turns it; the current along x meets its end
     const std::size_t floe =
-        add_floe(w.scene, form, 500.0, Vec3(0, 0, -3), Quaternion::Identity(), 0, false);
+        add_floe(w.scene, shape, 500.0, Vec3(0, 0, -3), Quaternion::Identity(), 0, false);
     const double speed = 0.5;
     w.scene.water.current = Vec3(speed, 0.0, 0.0);
     const double mass = 500.0 * size.prod(), area = size.y() * size.z();
@@ -229,12 +229,13 @@ TEST_CASE("a ship that moves and one that the ice and water drift past feel the 
         // the hull's lower half is under water, floes before it
         World w = test::plate_world(p, Vec3(2.0, 2.0, 1.0), 0.1, 0.2, -0.5);
         w.scene.water.grid = FlowGrid(rough_table(true));
-        const auto form = test::add_shape(w, test::make_box_set(Vec3(0.6, 0.5, 0.2), 0.05, 0.1));
+        const auto shape = test::add_shape(w, test::make_box_set(Vec3(0.6, 0.5, 0.2), 0.05, 0.1));
         const Vec3 drift(drifts ? -speed : 0.0, 0.0, 0.0);
         w.scene.water.current = drift;
         for (int k = 0; k < 4; ++k) {
-            const std::size_t i = add_floe(w.scene, form, 900.0, Vec3(1.4 + 0.7 * k, 0.1 * k, 0.01),
-                                           Quaternion::Identity(), 0, false);
+            const std::size_t i =
+                add_floe(w.scene, shape, 900.0, Vec3(1.4 + 0.7 * k, 0.1 * k, 0.01),
+                         Quaternion::Identity(), 0, false);
             w.scene.bodies.momentum[i] = w.scene.bodies.mass[i] * drift;
             update_derived(w.scene.bodies, i);
         }

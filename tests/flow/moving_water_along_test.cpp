@@ -34,19 +34,19 @@ Case deep_case(double dt) {
 // A hull far away; add floes to it.
 World far_world(const Case& p) { return test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 1000.0); }
 
-std::size_t add_box(World& w, std::int32_t form, const Vec3& at,
+std::size_t add_box(World& w, std::int32_t shape, const Vec3& at,
                     const Quaternion& turn = Quaternion::Identity()) {
-    return add_floe(w.scene, form, 900.0, at, turn, 0, false);
+    return add_floe(w.scene, shape, 900.0, at, turn, 0, false);
 }
 
 // The whole mass matrix of a floe along a direction, or about it.
 double mass_along(const Bodies& b, std::size_t i, int axis) {
-    return b.mass[i] + b.inertias_of(i).added(axis, axis);
+    return b.mass[i] + b.inertia_row_of(i).added(axis, axis);
 }
 
 void set_motion(Bodies& b, std::size_t i, const Vec3& v, const Vec3& spin) {
     const Mat3& r = b.rotation[i];
-    b.momentum[i] = b.mass[i] * v + r * b.inertias_of(i).added * r.transpose() * v;
+    b.momentum[i] = b.mass[i] * v + r * b.inertia_row_of(i).added * r.transpose() * v;
     b.angular_momentum[i] = r * b.inertia(i) * r.transpose() * spin;
     update_derived(b, i);
 }
@@ -81,8 +81,8 @@ std::pair<Vec3, Vec3> kirchhoff(const Mat3& mass, const Mat3& inertia, Vec3 v, V
 TEST_CASE("a force gives a floe and its water the speed of both masses together",
           "[flow][added-mass][analytic]") {
     World w = far_world(deep_case(0.01));
-    const auto form = test::add_shape(w, test::make_box_set(kBox, 0.05, 0.1));
-    const std::size_t floe = add_box(w, form, Vec3(0, 0, -50));
+    const auto shape = test::add_shape(w, test::make_box_set(kBox, 0.05, 0.1));
+    const std::size_t floe = add_box(w, shape, Vec3(0, 0, -50));
     set_added_mass(w.scene, w.parameters);
     const Bodies& b = w.scene.bodies;
     // a plate pushed broadside moves more water than it weighs, edge-on less than half
@@ -138,8 +138,8 @@ TEST_CASE("a floe free in water at rest moves by Kirchhoff's equations",
     const Vec3 v(0.3, 0.1, 0.2), spin(0.3, 0.6, -0.2);
     const auto run = [&](double dt) {
         World w = far_world(deep_case(dt));
-        const auto form = test::add_shape(w, test::make_box_set(kBox, 0.05, 0.1));
-        const std::size_t i = add_box(w, form, Vec3(0, 0, -50));
+        const auto shape = test::add_shape(w, test::make_box_set(kBox, 0.05, 0.1));
+        const std::size_t i = add_box(w, shape, Vec3(0, 0, -50));
         set_added_mass(w.scene, w.parameters);
         Bodies& b = w.scene.bodies;
         set_motion(b, i, v, spin);
@@ -151,7 +151,7 @@ TEST_CASE("a floe free in water at rest moves by Kirchhoff's equations",
             require_balance(before, w);
         }
         CHECK((b.momentum[i] - momentum).norm() < tolerance(1e-11) * momentum.norm());
-        const Inertia& inertia = b.inertias_of(i);
+        const Inertia& inertia = b.inertia_row_of(i);
         const auto [exact_v, exact_spin] =
             kirchhoff(b.mass[i] * Mat3::Identity() + inertia.added, inertia.body, v, spin, time);
         const Mat3 back = b.rotation[i].transpose();
@@ -173,8 +173,8 @@ TEST_CASE("a floe in an even current moves as in water at rest, seen by the curr
     const Vec3 current(0.5, 0.2, 0.0), v(0.1, 0.0, 0.2), spin(0.2, 0.4, 0.1);
     const auto velocity_after = [&](bool flows, double dt) {
         World w = far_world(deep_case(dt));
-        const auto form = test::add_shape(w, test::make_box_set(kBox, 0.05, 0.1));
-        const std::size_t i = add_box(w, form, Vec3(0, 0, -50));
+        const auto shape = test::add_shape(w, test::make_box_set(kBox, 0.05, 0.1));
+        const std::size_t i = add_box(w, shape, Vec3(0, 0, -50));
         set_added_mass(w.scene, w.parameters);
         if (flows) w.scene.water.current = current;
         set_motion(w.scene.bodies, i, v + (flows ? current : Vec3(Vec3::Zero())), spin);
@@ -195,9 +195,9 @@ TEST_CASE("a current brings a floe and its water to its speed as the book says",
     Case p = deep_case(0.01);
     p.drag = DragModel::panel;
     World w = far_world(p);
-    const auto form = test::add_shape(w, test::make_box_set(kBox, 0.05, 0.1));
+    const auto shape = test::add_shape(w, test::make_box_set(kBox, 0.05, 0.1));
     const std::size_t floe =
-        add_floe(w.scene, form, 500.0, Vec3(0, 0, -50), Quaternion::Identity(), 0, false);
+        add_floe(w.scene, shape, 500.0, Vec3(0, 0, -50), Quaternion::Identity(), 0, false);
     set_added_mass(w.scene, p);
     // v = W^2 k t / (1 + W k t), k = rho C_d A / (2 (m + A_11))
     const double speed = 0.5;
@@ -261,7 +261,7 @@ TEST_CASE("what couples shifts and turns of plates about their centre of mass is
         TriangleMesh mesh = test::make_ring_mesh(low, high);
         const MassProperties solid = measure_mass(mesh);
         for (Vec3& v : mesh.vertices) v -= solid.centroid;
-        const Mat6 a = added_mass_of_form(mesh, 1000.0);
+        const Mat6 a = added_mass_of_shape(mesh, 1000.0);
         const double mass = 900.0 * solid.volume;
         const Mat3 inertia = 900.0 * solid.inertia;
         for (int i = 0; i < 3; ++i)

@@ -130,10 +130,10 @@ TEST_CASE("the table's pressure pushes a floe: U squared, nothing far off or whe
           "[flow][water][analytic]") {
     Case p = deep_case();
     World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
-    const auto form = test::add_shape(w, test::make_box_set(Vec3(0.1, 0.08, 0.06), 0.01, 0.02));
+    const auto shape = test::add_shape(w, test::make_box_set(Vec3(0.1, 0.08, 0.06), 0.01, 0.02));
     const Vec3 place(1.0, 0.4, -2.0);
     const std::size_t floe =
-        add_floe(w.scene, form, 900.0, place, Quaternion::Identity(), 0, false);
+        add_floe(w.scene, shape, 900.0, place, Quaternion::Identity(), 0, false);
     Mat3 gradient;
     gradient << 0.05, 0.02, 0.0, 0.02, -0.03, 0.01, 0.0, 0.01, -0.02;
     w.scene.water.grid = FlowGrid(even_table(gradient));
@@ -163,9 +163,9 @@ TEST_CASE("what the pressure gives a floe is entered as the water's work",
     Case p = deep_case();
     p.speed_table = {{0.0, 1.0}};
     World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
-    const auto form = test::add_shape(w, test::make_box_set(Vec3(1.0, 0.8, 0.3), 0.05, 0.1));
+    const auto shape = test::add_shape(w, test::make_box_set(Vec3(1.0, 0.8, 0.3), 0.05, 0.1));
     const std::size_t floe =
-        add_floe(w.scene, form, 900.0, Vec3(2.0, 0.4, -2.0), Quaternion::Identity(), 0, false);
+        add_floe(w.scene, shape, 900.0, Vec3(2.0, 0.4, -2.0), Quaternion::Identity(), 0, false);
     Mat3 gradient;
     gradient << 0.1, 0.02, 0.0, 0.02, -0.06, 0.01, 0.0, 0.01, -0.04;
     w.scene.water.grid = FlowGrid(even_table(gradient));
@@ -188,10 +188,10 @@ TEST_CASE("every instruction set gives loads with pressure to the bits of the re
     p.dimension = 3;
     Dice dice{std::mt19937(13)};
     World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
-    const auto form = test::add_shape(w, test::make_box_set(Vec3(1.0, 0.8, 0.3), 0.05, 0.1));
+    const auto shape = test::add_shape(w, test::make_box_set(Vec3(1.0, 0.8, 0.3), 0.05, 0.1));
     for (int k = 0; k < 19; ++k) {
         const Vec3 at(4.0 * dice.number(), 4.0 * dice.number(), 0.5 * dice.number() - 0.2);
-        const std::size_t i = add_floe(w.scene, form, 900.0, at, turn(dice), 0, false);
+        const std::size_t i = add_floe(w.scene, shape, 900.0, at, turn(dice), 0, false);
         w.scene.bodies.velocity[i] = dice.vector();
     }
     Mat3 gradient;

@@ -8,7 +8,7 @@
 //
 // The hull is one chain: its edges know their neighbours, so floes that slide along a face do not
 // catch on the ends of edges, as they would on the seams of convex parts. Box2D wants a skin around
-// every form; it lies inside the faces here: the forms inside are smaller by it.
+// every shape; it lies inside the faces here: the shapes inside are smaller by it.
 #include <box2d/box2d.h>
 
 #include <map>

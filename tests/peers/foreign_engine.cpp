@@ -64,8 +64,8 @@ void ForeignEngine::release_near_ship() {
     for (std::size_t i = 1; i < b.size(); ++i) {
         const auto group = static_cast<std::size_t>(b.group[i]);
         if (!b.held[i] || world_.parameters.floes[group].hold == Hold::always) continue;
-        const Polygon& form = outlines_[static_cast<std::size_t>(b.shape[i])];
-        if (distance(hull, place(form, b.rotation[i], b.position[i])) > reach) continue;
+        const Polygon& outline = outlines_[static_cast<std::size_t>(b.shape[i])];
+        if (distance(hull, place(outline, b.rotation[i], b.position[i])) > reach) continue;
         release(b, i);
         release_floe(i);
     }

@@ -23,7 +23,7 @@ using namespace ice::test;
 namespace {
 
 const SpencerCoefficients kTrue{"true", 0.62, 1.4, 0.9, 2.1, 1.3, true};
-const HullForm kHull{95.0, 22.0, 8.0, 0.0, 0.0};
+const HullDimensions kHull{95.0, 22.0, 8.0, 0.0, 0.0};
 
 FitPoint make_point(double thickness, double speed, bool level, double half = std::nan("")) {
     const IceConditions ice{thickness, 0.1, 900.0, 1025.0, 9.81, speed, 5e5};

@@ -66,10 +66,10 @@ void write_free_run(const std::filesystem::path& run, double h, double speed) {
 
 Thrust constant(double newtons) { return {"constant", newtons, 0.0, {}}; }
 
-// the first curve of fixed course
+// the first curve of ships on a prescribed course
 const HvCurve& computed(const HvStudy& study) {
     for (const HvCurve& curve : study.curves)
-        if (curve.source == Source::fixed_course) return curve;
+        if (curve.source == Source::prescribed_course) return curve;
     throw std::logic_error("no curve");
 }
 
@@ -197,7 +197,7 @@ TEST_CASE("the h-v curve of a sweep is that of its resistances, formulas beside 
     CHECK_THROWS_WITH(make_hv(sweep, {}, {}), Catch::Contains("--thrust"));
 }
 
-TEST_CASE("free ships have their mean speeds, on one chart with fixed courses", "[hv]") {
+TEST_CASE("free ships have their mean speeds, on one chart with prescribed courses", "[hv]") {
     const TempFolder folder;
     write_grid_of_thickness(folder);
     for (const double h : {0.5, 1.0})
@@ -265,5 +265,5 @@ TEST_CASE("free ships alone have the formulas beside them once their thrust is g
     CHECK(formulas({}) == 0);
     CHECK(formulas({constant(3e5)}) == 1);  // the others ask for the angles of the bow
     for (const HvCurve& curve : make_hv(sweep, {constant(3e5)}, {}).curves)
-        CHECK(curve.source != Source::fixed_course);
+        CHECK(curve.source != Source::prescribed_course);
 }

@@ -218,7 +218,7 @@ TEST_CASE("the ice belt's line says what the certificate holds", "[certify]") {
     CHECK(report.unfitted_share > 0.001);
     CHECK(report.unfitted_share < 0.2);
     CHECK(warns(report, "in the ice belt the stem is cut back"));
-    // of single holes only
+    // of single places between spheres only
     CHECK(report.covering_radius <= 0.66 * set.spacing);
 }
 

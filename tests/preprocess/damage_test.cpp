@@ -66,7 +66,7 @@ Tally damage_and_repair(const TriangleMesh& mesh, int count, unsigned seed) {
     return tally;
 }
 
-// Worse than any file should be: holes of any size, half of the faces lost.
+// Worse than any file should be: openings of any size, half of the faces lost.
 Tally tear_and_repair(const TriangleMesh& mesh, int count) {
     Tally tally;
     const double volume = measure_mass(mesh).volume;

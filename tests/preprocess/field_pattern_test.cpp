@@ -162,7 +162,7 @@ TEST_CASE("cusps without jitter have the exact area of their arcs", "[field][ana
     // rows 80 m long, and the last front's arcs in place of the first's, all 8 m wide and 2 m deep
     const FieldPlan plan = field_plan(cusps("jitter = 0\n"));
     CHECK(total_area(plan.loose) == Near(80.0 * 24.0).epsilon(1e-12));
-    // equal forms: whole cusps behind halves, halves at each side, whole ones behind whole ones
+    // equal shapes: whole cusps behind halves, halves at each side, whole ones behind whole ones
     FieldReport report;
     const FieldSpec spec = field_spec(cusps("jitter = 0\n"));
     CHECK(make_field(spec, plan, report).shapes.size() <= 10);

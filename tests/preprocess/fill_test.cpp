@@ -10,7 +10,7 @@
 #include "common/base/parallel.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
 #include "preprocess/fill/lattice.hpp"
-#include "preprocess/fill/shell_tile.hpp"
+#include "preprocess/fill/layer_tile.hpp"
 #include "tests/preprocess/check_shares.hpp"
 #include "tests/preprocess/fill_options.hpp"
 #include "tests/preprocess/solid_oracle.hpp"
@@ -255,7 +255,7 @@ TEST_CASE("discs of a hull's section have the guarantees of spheres, per metre o
 
 TEST_CASE("a solid is convex when no vertex lies before a face", "[fill][analytic]") {
     const auto is_convex = [](const TriangleMesh& mesh) {
-        return ShellSolid(SurfaceTree(mesh)).convex;
+        return LayerSolid(SurfaceTree(mesh)).convex;
     };
     TriangleMesh box = test::make_box_mesh(Vec3(4, 2, 1));
     CHECK(is_convex(box));

@@ -33,8 +33,8 @@ TriangleMesh combatant(double fold = 0.0, int stations = 160, int levels = 40);
 /// @param outer takes the volume of the envelope [m3]   @param plates takes that of the plates
 TriangleMesh double_skin(double gap = 0.0, double* outer = nullptr, double* plates = nullptr);
 
-/// Two demihulls, a bridge deck and 48 posts: 51 closed parts but for 57 planar holes at the posts'
-/// ends (39 lack one end, 9 both). @param whole takes the volume without holes [m3]
+/// Two demihulls, a bridge deck and 48 posts: 51 closed parts but for 57 planar openings at the
+/// posts' ends (39 lack one end, 9 both). @param whole takes the volume without openings [m3]
 TriangleMesh catamaran(double* whole = nullptr);
 
 /// What of the mesh lies below a level z; cut triangles get vertices at exactly that height. The

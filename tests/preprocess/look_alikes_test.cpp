@@ -77,7 +77,8 @@ TEST_CASE("look-alike: the double skin's plates are solids that touch, or do not
     CHECK(find_self_intersections(test::double_skin(0.01)).empty());
 }
 
-TEST_CASE("look-alike: the catamaran has 51 parts and 57 planar holes", "[support][look-alikes]") {
+TEST_CASE("look-alike: the catamaran has 51 parts and 57 planar openings",
+          "[support][look-alikes]") {
     double whole = 0.0;
     const TriangleMesh mesh = test::catamaran(&whole);
     CHECK(find_parts(mesh).count == 51);

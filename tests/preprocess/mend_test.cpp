@@ -170,7 +170,7 @@ TEST_CASE("a ship of plates is filled, whether they touch or leave gaps", "[repa
     }
 }
 
-TEST_CASE("a catamaran with 57 planar holes is accepted, with the doubt that leaves",
+TEST_CASE("a catamaran with 57 planar openings is accepted, with the doubt that leaves",
           "[repair][mend]") {
     double whole = 0.0;
     const Mended mended = mend(test::catamaran(&whole));
@@ -183,7 +183,7 @@ TEST_CASE("a catamaran with 57 planar holes is accepted, with the doubt that lea
 TEST_CASE("openings that leave too much in doubt together are refused with the sum and its limit",
           "[repair][mend][errors]") {
     TriangleMesh mesh;
-    for (int k = 0; k < 6; ++k) {  // six boats with 57 posts' holes each, and little hull
+    for (int k = 0; k < 6; ++k) {  // six boats with 57 posts' openings each, and little hull
         TriangleMesh boat = test::catamaran();
         for (Vec3& v : boat.vertices)
             v = Vec3(v.x(), v.y() + 30.0 * k, v.z() > 2.3 ? v.z() : 0.3 * v.z() + 1.61);

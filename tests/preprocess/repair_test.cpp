@@ -126,7 +126,7 @@ TEST_CASE("a triangle missing from a flat side is put back exactly", "[repair][a
         box.region.pop_back();
         const Result r = repair(box);
         CHECK(r.volume == Near(8).epsilon(1e-14));
-        CHECK(has(r.repairs, "holes in flat faces closed"));
+        CHECK(has(r.repairs, "openings in flat faces closed"));
     }
 }
 
@@ -219,9 +219,9 @@ TEST_CASE("a missing stem is refused, however little volume it had", "[repair][e
                       Catch::Contains("opening of") && Catch::Contains("too large to guess"));
     // The same opening amidships is closed, and said. A flat cap loses less than 1.4 x 0.4 x 0.02
     // m3, 0.03 % of the spindle's 33.5 m3; 1 % tells it from a cap that bulges or sags.
-    const TriangleMesh holed =
+    const TriangleMesh opened =
         without(spindle, [](const Vec3& p) { return p.z() > 0.98 && std::abs(p.x()) < 0.7; });
-    CHECK(repair(holed).volume == Near(measure_mass(spindle).volume).epsilon(0.01));
+    CHECK(repair(opened).volume == Near(measure_mass(spindle).volume).epsilon(0.01));
 }
 
 TEST_CASE("a file that seems cut off gets no deck", "[repair][errors]") {

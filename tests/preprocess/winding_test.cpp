@@ -29,7 +29,8 @@ TriangleMesh half_globe(int bands) {
 
 }  // namespace
 
-TEST_CASE("rows along three axes give the volume of a box and see a hole", "[measure][analytic]") {
+TEST_CASE("rows along three axes give the volume of a box and see an opening",
+          "[measure][analytic]") {
     TriangleMesh box = test::make_box_mesh(Vec3(4, 2, 1));
     for (const RowVolume& axis : measure_rows(box, 50)) {
         CHECK(axis.by_sign == Near(8).epsilon(1e-12));  // prism along each axis: no sampling error
@@ -50,14 +51,14 @@ TEST_CASE("rows of a globe agree with its exact volume", "[measure]") {
         CHECK(axis.by_sign == Near(volume).epsilon(0.002));
 }
 
-TEST_CASE("a proof fails on a hole, on the wrong side out and on volume counted twice",
+TEST_CASE("a proof fails on an opening, on the wrong side out and on volume counted twice",
           "[repair][verify]") {
     const TriangleMesh box = test::make_box_mesh(Vec3(4, 2, 1));
     CHECK(verify_solid(box).good);
     CHECK(verify_solid(box).volume == Near(8).epsilon(1e-14));
-    TriangleMesh hole = box;
-    hole.triangles.pop_back();
-    CHECK_THAT(verify_solid(hole).fault, Catch::Contains("3 edges"));
+    TriangleMesh open = box;
+    open.triangles.pop_back();
+    CHECK_THAT(verify_solid(open).fault, Catch::Contains("3 edges"));
     TriangleMesh turned = box;
     for (auto& t : turned.triangles) std::swap(t[1], t[2]);
     CHECK_FALSE(verify_solid(turned).good);

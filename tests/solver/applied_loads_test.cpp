@@ -24,8 +24,8 @@ World one_floe(double drag = 0.0) {
     p.speed_table = {{0.0, 0.0}};
     p.drag_coefficient = drag;
     World world = make_world(p, test::make_box_set({4.0, 2.0, 1.0}, 0.1, 0.2));
-    const auto form = add_floe_shape(world, test::make_box_set({1.0, 0.8, 0.3}, 0.05, 0.1));
-    add_floe(world, form, {.position = {30.0, 0.0, std::numeric_limits<double>::quiet_NaN()}});
+    const auto shape = add_floe_shape(world, test::make_box_set({1.0, 0.8, 0.3}, 0.05, 0.1));
+    add_floe(world, shape, {.position = {30.0, 0.0, std::numeric_limits<double>::quiet_NaN()}});
     world.applied_loads.resize(world.scene.bodies.size());
     return world;
 }

@@ -98,7 +98,7 @@ TEST_CASE("a floe whose place is no number is in no pair with floes, and hides n
     }
 }
 
-TEST_CASE("a body that has another form now begins a path of its own", "[broad]") {
+TEST_CASE("a body that has another shape now begins a path of its own", "[broad]") {
     World w = test::scattered_world(3, 20, 1.0, 10.0);
     Bodies& b = w.scene.bodies;
     MotionBounds motion;

@@ -48,7 +48,7 @@ struct Tiles {
 
 }  // namespace
 
-TEST_CASE("ice of the same form has the same notch", "[live_edge][level_ice][edge][analytic]") {
+TEST_CASE("ice of the same shape has the same notch", "[live_edge][level_ice][edge][analytic]") {
     Tiles t;
     const std::int32_t same = t.add({2, 2, 0.4}, Vec3::Zero());
     t.notches.give(t.w.scene, same);

@@ -180,7 +180,7 @@ TEST_CASE("floes of a field are free unless stated, those of a grid held until t
     CHECK(hold("file", "hold = \"until-hull-contact\"\n") == Hold::until_hull_contact);
 }
 
-TEST_CASE("a ship that answers: lists of words, curves, numbers or a word, and what goes together",
+TEST_CASE("a free ship: lists of words, curves, numbers or a word, and what goes together",
           "[case][ship]") {
     const auto text = [](const std::string& lines) {
         return with("[contact]", lines + "\n[contact]");

@@ -32,16 +32,16 @@ struct Dice {
 };
 
 // A face's, edge's or corner's sphere of a block, or one that is round, turned by `turn`.
-Feature some_sphere(int form, const Mat3& turn, double radius) {
+Feature some_sphere(int feature, const Mat3& turn, double radius) {
     const Vec3 axes[3] = {turn.col(0), turn.col(1), turn.col(2)};
     Feature s{Vec3::Zero(), radius, axes[0], 1.0, 0.0};
     s.patch_radius = 1.5 * radius;
-    if (form == 0) return s;
-    if (form == 3) {  // an edge that does not know its faces
+    if (feature == 0) return s;
+    if (feature == 3) {  // an edge that does not know its faces
         s.spread_cos = s.spread_sin = std::sqrt(0.5);
         return s;
     }
-    const auto count = static_cast<std::size_t>(form + 1);
+    const auto count = static_cast<std::size_t>(feature + 1);
     s.normal = axes[0] + axes[1] + (count == 3 ? axes[2] : Vec3::Zero());
     s.normal.normalize();
     s.spread_cos = 1.0 / std::sqrt(static_cast<double>(count));
@@ -52,8 +52,8 @@ Feature some_sphere(int form, const Mat3& turn, double radius) {
 }
 
 // Turned so that b's sphere about faces a's, in half of the cases exactly.
-Feature facing_sphere(int form, const Feature& a, Dice& dice) {
-    Feature b = some_sphere(form, dice.turn(), 0.04);
+Feature facing_sphere(int feature, const Feature& a, Dice& dice) {
+    Feature b = some_sphere(feature, dice.turn(), 0.04);
     const Vec3 wanted = -a.normal + (dice() < 0.0 ? Vec3::Zero() : Vec3(0.8 * dice.vector()));
     const Mat3 turn = Eigen::Quaterniond::FromTwoVectors(b.normal, wanted).toRotationMatrix();
     b.normal = turn * b.normal;
@@ -64,13 +64,13 @@ Feature facing_sphere(int form, const Feature& a, Dice& dice) {
 }  // namespace
 
 TEST_CASE("two spheres have the gap of their feature types, bit for bit", "[narrow][equivalence]") {
-    const int form_a = GENERATE(0, 1, 2, 3), form_b = GENERATE(0, 1, 2, 3);
+    const int feature_a = GENERATE(0, 1, 2, 3), feature_b = GENERATE(0, 1, 2, 3);
     const bool prefer_reference_a = GENERATE(false, true);
-    Dice dice(static_cast<unsigned>(10 * form_a + form_b));
+    Dice dice(static_cast<unsigned>(10 * feature_a + feature_b));
     int valid = 0;
     for (int k = 0; k < 400; ++k) {
-        Feature a = some_sphere(form_a, dice.turn(), 0.05);
-        Feature b = facing_sphere(form_b, a, dice);
+        Feature a = some_sphere(feature_a, dice.turn(), 0.05);
+        Feature b = facing_sphere(feature_b, a, dice);
         const Feature type_a = a, type_b = b;
         const FeaturePair pair(type_a, type_b, prefer_reference_a);
         for (int place = 0; place < 10; ++place) {
@@ -133,14 +133,14 @@ TEST_CASE("edges that are excluded have a cross product that is in neither cone"
 
 TEST_CASE("no gap comes below the bound of two feature types within the skin",
           "[narrow][property]") {
-    const int form_a = GENERATE(0, 1, 2), form_b = GENERATE(0, 1, 2);
+    const int feature_a = GENERATE(0, 1, 2), feature_b = GENERATE(0, 1, 2);
     const bool prefer_reference_a = GENERATE(false, true);
-    Dice dice(static_cast<unsigned>(100 + 10 * form_a + form_b));
+    Dice dice(static_cast<unsigned>(100 + 10 * feature_a + feature_b));
     const Skin skin = GENERATE(Skin{0.03, 0.015}, Skin{0.015, 0.0075});
     int compared = 0;
     for (int k = 0; k < 3000; ++k) {
-        Feature a = some_sphere(form_a, dice.turn(), 0.05);
-        Feature b = facing_sphere(form_b, a, dice);
+        Feature a = some_sphere(feature_a, dice.turn(), 0.05);
+        Feature b = facing_sphere(feature_b, a, dice);
         b.center = 0.09 * a.normal + 0.1 * dice.vector();
         const Feature type_a = a, type_b = b;
         FeaturePairBound bound(type_a, type_b, prefer_reference_a, kReach, skin);

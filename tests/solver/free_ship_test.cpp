@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ship that answers, without ice: periods, stability, damping, thrust, lines.
+// A free ship, without ice: periods, stability, damping, thrust, lines.
 //
 // Tolerances: 5e-4 is half of the last printed digit of a period; 1e-3 is sin x against x at 0.01
 // rad; 1e-9 is where the search for the equilibrium stops; 1e-6 m/s is what an exponential approach

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <random>
 
-#include "solver/level_ice/crack_form.hpp"
+#include "solver/level_ice/crack_size.hpp"
 #include "solver/level_ice/section_outline.hpp"
 #include "tests/support/edge_checks.hpp"
 #include "tests/support/make_sphere_sets.hpp"

@@ -225,7 +225,7 @@ TEST_CASE("level ice goes on from a checkpoint, and by any number of threads, wi
     REQUIRE(whole.edge.pieces().size() > 3);
     for (const IcePiece& piece : whole.edge.pieces()) {
         const auto i = static_cast<std::size_t>(piece.body);
-        const double heave = whole.scene.bodies.inertias_of(i).added(2, 2);
+        const double heave = whole.scene.bodies.inertia_row_of(i).added(2, 2);
         // of a plate: more than half of its mass in any case
         CHECK((heave > 0.5 * whole.scene.bodies.mass[i]) == p.floes_move_water);
     }

@@ -27,19 +27,19 @@ Quaternion turn(Dice& dice) {
 }
 
 // Floes in the water, wholly under it, above it and far from it both ways; some at rest.
-World make_floes(const Case& p, std::size_t count, std::size_t forms, Dice& dice) {
+World make_floes(const Case& p, std::size_t count, std::size_t shapes, Dice& dice) {
     World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
     const std::vector<Vec3> sizes{{1.0, 0.8, 0.3}, {0.5, 0.9, 0.4}};
-    std::vector<std::int32_t> form;
-    for (std::size_t k = 0; k < forms; ++k)
-        form.push_back(test::add_shape(w, test::make_box_set(sizes[k], 0.05, 0.1)));
+    std::vector<std::int32_t> shape;
+    for (std::size_t k = 0; k < shapes; ++k)
+        shape.push_back(test::add_shape(w, test::make_box_set(sizes[k], 0.05, 0.1)));
     Bodies& b = w.scene.bodies;
     for (std::size_t k = 0; k < count; ++k) {
         const double height = (k % 8 == 7 ? 2.0 : 0.4) * dice.number();
         const bool upright = k % 5 == 4;
-        // runs of one form of up to three floes
+        // runs of one shape of up to three floes
         const std::size_t i =
-            add_floe(w.scene, form[k / 3 % forms], 900.0, Vec3(3.0 * double(k), 0.0, height),
+            add_floe(w.scene, shape[k / 3 % shapes], 900.0, Vec3(3.0 * double(k), 0.0, height),
                      upright ? Quaternion::Identity() : turn(dice), 0, false);
         if (k % 4 != 3) b.velocity[i] = dice.vector();
         if (k % 3 != 2) b.angular_velocity[i] = dice.vector();
@@ -68,10 +68,10 @@ TEST_CASE("every instruction set loads floes to the bits of the reference",
     p.buoyancy = GENERATE(BuoyancyModel::none, BuoyancyModel::centre, BuoyancyModel::distributed);
     // in the longer step drag would stop most of them
     p.time_step = GENERATE(0.01, 10.0);
-    const std::size_t forms = GENERATE(1u, 2u);
+    const std::size_t shapes = GENERATE(1u, 2u);
     Dice dice{std::mt19937(7)};
     for (std::size_t count = 1; count <= 18; ++count) {
-        World w = make_floes(p, count, forms, dice);
+        World w = make_floes(p, count, shapes, dice);
         w.scene.dimension = count % 6 == 5 ? 2 : 3;
         std::vector<std::int32_t> all, some;
         for (std::int32_t k = 1; k <= static_cast<std::int32_t>(count); ++k) {
@@ -92,10 +92,10 @@ TEST_CASE(
     p.buoyancy = BuoyancyModel::none;
     World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
     const Vec3 size(1.0, 0.8, 0.3);
-    const std::int32_t form = test::add_shape(w, test::make_box_set(size, 0.05, 0.1));
+    const std::int32_t shape = test::add_shape(w, test::make_box_set(size, 0.05, 0.1));
     const double height = -0.05, draught = 0.5 * size.z() - height, speed = 0.5;
     const std::size_t i =
-        add_floe(w.scene, form, 900.0, Vec3(3.0, 0.0, height), Quaternion::Identity(), 0, false);
+        add_floe(w.scene, shape, 900.0, Vec3(3.0, 0.0, height), Quaternion::Identity(), 0, false);
     w.scene.bodies.velocity[i] = Vec3(speed, 0.0, 0.0);
     const std::vector<std::int32_t> floes{static_cast<std::int32_t>(i)};
     std::vector<FloeLoad> loads(1);
@@ -126,7 +126,7 @@ TEST_CASE("floes all above, all under or all level with the water have the refer
     check_bits(w, b.moving);
 }
 
-TEST_CASE("forms of many corners, the last block of facets not full, have the reference's bits",
+TEST_CASE("shapes of many corners, the last block of facets not full, have the reference's bits",
           "[loads][water][simd]") {
     // more corners than are asked for their height once, and two facets more than fill blocks
     SphereSet set = test::make_ball_set(0.4);
@@ -147,11 +147,11 @@ TEST_CASE("forms of many corners, the last block of facets not full, have the re
     p.drag = GENERATE(DragModel::projected, DragModel::panel);
     p.buoyancy = BuoyancyModel::distributed;
     World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
-    const std::int32_t form = test::add_shape(w, set);
+    const std::int32_t shape = test::add_shape(w, set);
     Dice dice{std::mt19937(9)};
     for (int n = 0; n < 13; ++n) {
         const Vec3 at(double(n), 0.0, 0.5 * dice.number());
-        const std::size_t floe = add_floe(w.scene, form, 900.0, at, turn(dice), 0, false);
+        const std::size_t floe = add_floe(w.scene, shape, 900.0, at, turn(dice), 0, false);
         w.scene.bodies.velocity[floe] = dice.vector();
         w.scene.bodies.angular_velocity[floe] = dice.vector();
     }

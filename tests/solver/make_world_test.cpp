@@ -64,8 +64,8 @@ TEST_CASE("a world made in code moves bit for bit as the case file's") {
     p.contact.crushing_pressure = 1e6;  // case files have it unless they say otherwise
     p.hull_position = Vec3(0.0, 0.0, 0.2);
     World made = make_world(p, read_spheres(hull.path()));
-    const auto form = add_floe_shape(made, read_spheres(floe.path()));
-    CHECK(add_floe(made, form,
+    const auto shape = add_floe_shape(made, read_spheres(floe.path()));
+    CHECK(add_floe(made, shape,
                    {.position = {2.6, 0.1, -0.1},
                     .velocity = {-0.2, 0.0, 0.0},
                     .angular_velocity = {0.0, 0.0, 0.3}}) == 1);
@@ -93,12 +93,12 @@ TEST_CASE("a floe without a height floats at rest") {
 
 TEST_CASE("floes made in code are held and released as a case's") {
     World w = make_world(good_case(), kHull);
-    const auto form = add_floe_shape(w, kFloe);
-    const auto wall = add_floe(w, form, {.position = {2.6, 0.9, -0.1}, .hold = Hold::always});
+    const auto shape = add_floe_shape(w, kFloe);
+    const auto wall = add_floe(w, shape, {.position = {2.6, 0.9, -0.1}, .hold = Hold::always});
     const auto waits =
-        add_floe(w, form, {.position = {2.6, -0.1, -0.1}, .hold = Hold::until_hull_contact});
+        add_floe(w, shape, {.position = {2.6, -0.1, -0.1}, .hold = Hold::until_hull_contact});
     const auto far =
-        add_floe(w, form, {.position = {9.0, 0.0, -0.1}, .hold = Hold::until_hull_contact});
+        add_floe(w, shape, {.position = {9.0, 0.0, -0.1}, .hold = Hold::until_hull_contact});
     for (int k = 0; k < 100; ++k) step(w);
     const Bodies& b = w.scene.bodies;
     CHECK(b.held[wall] == 1);
@@ -140,7 +140,7 @@ TEST_CASE("what no world can be made of is refused by name") {
     CHECK_THAT(refusal([&] { add_floe(w, 0, FloeStart{}); }),
                Contains("no shape has the number 0"));
     w.parameters.ice_density = 1100.0;
-    const auto form = add_floe_shape(w, kFloe);
-    CHECK_THAT(refusal([&] { add_floe(w, form, FloeStart{}); }),
+    const auto shape = add_floe_shape(w, kFloe);
+    CHECK_THAT(refusal([&] { add_floe(w, shape, FloeStart{}); }),
                Contains("no floating equilibrium"));
 }

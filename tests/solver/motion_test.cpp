@@ -152,7 +152,7 @@ TEST_CASE("collisions never add energy: head-on, offset with spin, against a pla
     CHECK(energy < 0.95 * start);  // they did meet
 }
 
-TEST_CASE("floes of one form and density share their moments of inertia, others have their own",
+TEST_CASE("floes of one shape and density share their moments of inertia, others have their own",
           "[scene]") {
     World w = test::plate_world(test::empty_space(0.01), Vec3(4, 4, 0.4), 0.1, 0.2, 5.0);
     const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));

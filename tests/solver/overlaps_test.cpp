@@ -89,7 +89,7 @@ TEST_CASE("floes side by side and corner to corner are in nobody", "[overlaps]")
     CHECK(measure(two_floes(1.0, 0.01, Vec3(1.0, 0, 0))).deepest == Near(0.0).margin(1e-12));
     const Quaternion turn(Eigen::AngleAxisd(0.7, Vec3(0.2, 0.3, 1).normalized()));
     CHECK(measure(two_floes(1.0, 0.01, Vec3(1.25, 0.3, 0.1), turn)).deepest == 0.0);
-    // the hull is of no convex form here: a floe inside it is found by winding number and seats
+    // the hull is of no convex shape here: a floe inside it is found by winding number and seats
     World w = two_floes(1.0, 0.01, Vec3(5, 0, 0));
     CHECK(measure(w).deepest == 0.0);
     w.scene.bodies.position[1] = w.scene.bodies.position[0] + Vec3(0.95, 0, 0);

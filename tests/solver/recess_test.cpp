@@ -198,7 +198,7 @@ TEST_CASE("a sphere of two contacts moves once, and both are less deep",
     CHECK(f.constraints[1].gap == f.contacts[1].gap);
 }
 
-TEST_CASE("contacts of a body that has another form now have no past for one step",
+TEST_CASE("contacts of a body that has another shape now have no past for one step",
           "[contact][crushing][recess]") {
     Floe f;
     f.meet({0.0});

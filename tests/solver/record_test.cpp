@@ -9,7 +9,7 @@
 #include "common/base/units.hpp"
 #include "common/formulas/lindqvist.hpp"
 #include "solver/record/hull_contacts.hpp"
-#include "solver/record/hull_form.hpp"
+#include "solver/record/measure_hull_dimensions.hpp"
 #include "solver/record/measure_step.hpp"
 #include "solver/record/recorder.hpp"
 #include "solver/record/run_statistics.hpp"
@@ -26,7 +26,7 @@ TEST_CASE("Lindqvist's submersion resistance of the paper's ship is 1.4 kN at 0.
           "[record][analytic]") {
     // L 10, B 2, T 1.44, h 0.3, mu 0.1, phi 35 and alpha 30 degrees, density difference 100:
     // potential part 597 N, friction 339 N, speed factor 1.47 (worked by hand from the formula)
-    const HullForm hull{10.0, 2.0, 1.44, 35 * kDegree, 30 * kDegree};
+    const HullDimensions hull{10.0, 2.0, 1.44, 35 * kDegree, 30 * kDegree};
     const IceConditions ice{0.3, 0.1, 900.0, 1000.0, 9.81, 0.5};
     CHECK(lindqvist_submersion(hull, ice) == Near(1381.0).epsilon(0.001));
     IceConditions smooth = ice;
@@ -38,7 +38,7 @@ TEST_CASE("Lindqvist's submersion resistance of the paper's ship is 1.4 kN at 0.
 TEST_CASE("cos psi sqrt(1/sin^2 phi + 1/tan^2 alpha) is 1/tan phi: friction at rest is closed",
           "[record][analytic]") {
     const double phi = 28 * kDegree, alpha = 22 * kDegree;
-    const HullForm hull{12.0, 3.0, 1.2, phi, alpha};
+    const HullDimensions hull{12.0, 3.0, 1.2, phi, alpha};
     const IceConditions a{0.3, 0.2, 900, 1000, 9.81, 0.0}, b{0.3, 0.0, 900, 1000, 9.81, 0.0};
     const double friction = lindqvist_submersion(hull, a) - lindqvist_submersion(hull, b);
     const double covered = 0.7 * 12.0 - 1.2 / std::tan(phi) - 3.0 / (4 * std::tan(alpha)) +
@@ -63,20 +63,20 @@ TEST_CASE("hull angles are measured from the mesh at the waterline", "[record][a
         mesh.triangles.push_back({k, n, 5 + k});
         mesh.triangles.push_back({n, 5 + n, 5 + k});
     }
-    const auto form = measure_hull_form(mesh, 0.0);
-    REQUIRE(form);
-    CHECK(form->length == Near(30.0));
-    CHECK(form->breadth == Near(2.0));
-    CHECK(form->draught == Near(1.0));
-    CHECK(form->stem_angle == Near(40 * kDegree));
-    CHECK(form->entrance_angle == Near(25 * kDegree));
+    const auto dimensions = measure_hull_dimensions(mesh, 0.0);
+    REQUIRE(dimensions);
+    CHECK(dimensions->length == Near(30.0));
+    CHECK(dimensions->breadth == Near(2.0));
+    CHECK(dimensions->draught == Near(1.0));
+    CHECK(dimensions->stem_angle == Near(40 * kDegree));
+    CHECK(dimensions->entrance_angle == Near(25 * kDegree));
     // full breadth counts from 0.99 B on, and the bow's planes end at B
-    CHECK(form->bow_length == Near(0.99 * run));
-    CHECK(form->parallel_length == Near(30.0 - 0.99 * run));
-    CHECK_FALSE(measure_hull_form(mesh, 5.0));
-    // the same form at any size
+    CHECK(dimensions->bow_length == Near(0.99 * run));
+    CHECK(dimensions->parallel_length == Near(30.0 - 0.99 * run));
+    CHECK_FALSE(measure_hull_dimensions(mesh, 5.0));
+    // the same shape at any size
     for (Vec3& v : mesh.vertices) v *= 1e-5;
-    const auto small = measure_hull_form(mesh, 0.0);
+    const auto small = measure_hull_dimensions(mesh, 0.0);
     REQUIRE(small);
     CHECK(small->stem_angle == Near(40 * kDegree));
     CHECK(small->entrance_angle == Near(25 * kDegree));

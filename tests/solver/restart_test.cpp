@@ -41,7 +41,7 @@ Case pressed_row(double crushing_pressure) {
 }
 
 World make_world(const Case& parameters, double floe_radius = 0.05) {
-    // a ship that answers floats
+    // a free ship floats
     const double depth = parameters.ship.any_free() ? 1.0 : 0.4;
     World w = plate_world(parameters, Vec3(3, 2, depth), 0.1, 0.2, -0.5);
     const auto box = add_shape(w, make_box_set(Vec3(0.5, 0.4, 0.2), floe_radius, 0.1));
@@ -99,7 +99,7 @@ TEST_CASE("a run continued from a checkpoint ends with the same bits and files",
     check_same_runs(folder / "whole", folder / "parts", p.track);
 }
 
-TEST_CASE("a ship that answers goes on with the same bits", "[step][checkpoint][ship]") {
+TEST_CASE("a free ship goes on with the same bits", "[step][checkpoint][ship]") {
     const std::int64_t stop = GENERATE(1, 25, 70);
     CAPTURE(stop);
     const TempFolder folder;
@@ -357,12 +357,12 @@ TEST_CASE("a checkpoint that holds a NaN is refused with the floe's number",
                Catch::Contains("checkpoint.h5: holds a NaN or infinity for floe 2"));
 }
 
-TEST_CASE("a checkpoint is refused when any floe of a group has another form",
+TEST_CASE("a checkpoint is refused when any floe of a group has another shape",
           "[step][checkpoint][errors]") {
     const TempFolder folder;
     Case p = pressed_row(kSoft);
     p.floes[0].pattern = GENERATE(Pattern::file, Pattern::grid);
-    // the last floe's form stays, as that of a field's last floe may
+    // the last floe's shape stays, as that of a field's last floe may
     const auto make = [&](double radius) {
         World w = make_world(p, radius);
         const auto last = add_shape(w, make_box_set(Vec3(0.6, 0.4, 0.2), 0.05, 0.1));

@@ -176,7 +176,7 @@ TEST_CASE("spheres in convex bodies are no nearer than the bodies' separation",
     }
 }
 
-TEST_CASE("a form with a dent, or whose spheres reach far out of it, encloses no spheres",
+TEST_CASE("a shape with a dent, or whose spheres reach far out of it, encloses no spheres",
           "[narrow][degenerate]") {
     SphereSet set = test::make_box_set(kSize, 0.05, 0.1);
     REQUIRE(build_shape(set, false).bounds.enclose_spheres);
@@ -187,7 +187,7 @@ TEST_CASE("a form with a dent, or whose spheres reach far out of it, encloses no
     CHECK_FALSE(build_shape(small, false).bounds.enclose_spheres);
 }
 
-TEST_CASE("of a form without bounds nothing is known", "[narrow][degenerate]") {
+TEST_CASE("of a shape without bounds nothing is known", "[narrow][degenerate]") {
     World w = two_boxes();
     w.scene.shapes[1].bounds = ConvexBounds();
     CHECK(separation_now(w) == -std::numeric_limits<double>::infinity());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ship that answers the ice: momentum and energy of ship and floes.
+// A free ship: momentum and energy of ship and floes.
 //
 // Tolerances: 1e-12 is rounding of a few hundred momenta, 1e-16 of their size each; 1e-9 that of a
 // sum of works of both signs.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ship that answers the ice: impacts, many floes at once, held ice.
+// A free ship: impacts, many floes at once, held ice.
 //
 // Tolerances: 1e-12 and 1e-11 are rounding of sums over the contacts; 1e-10 and 1e-9 are a few
 // hundred of the solver's stops at 1e-12 m/s; 1e-6 is as many at 1e-9 m/s.
@@ -113,7 +113,7 @@ TEST_CASE("fifty floes abreast take a ship of any mass along at their common spe
 }
 
 TEST_CASE("a ship that rams held ice stops or comes back", "[ship][held]") {
-    SECTION("rigid ice: with the restitution, for which a captive ship has no answer") {
+    SECTION("rigid ice: with the restitution, for which a prescribed course has no solution") {
         for (const double e : {0.0, 0.3}) {
             World w = box_ship(3000.0, 2.0, {surge});
             w.parameters.contact.restitution = e;
@@ -147,7 +147,9 @@ TEST_CASE("a ship that rams held ice stops or comes back", "[ship][held]") {
         CHECK(crushed);
         CHECK(speed == Near(0.0).margin(1e-6));
     }
-    SECTION("a wall beside a ship that only heaves: as captive along it, rubbed down to rest") {
+    SECTION(
+        "a wall beside a ship that only heaves: as on a prescribed course along it, rubbed down to "
+        "rest") {
         World w = box_ship(3000.0, 2.0, {heave});
         w.parameters.contact.crushing_pressure = 1e5;
         w.parameters.contact.friction_ship_ice = 0.1;

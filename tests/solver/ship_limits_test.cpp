@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ship that answers, in the limits where a ship on its course knows the answer.
+// A free ship, in the limits where a ship on its course knows the answer.
 //
 // Tolerances: 1e-6 m is a mass of 4e12 kg in place of an infinite one; 1e-9 is rounding of places
 // of metres, over depths of less than a millimetre.
@@ -30,16 +30,17 @@ World drifting(World w) {
 
 }  // namespace
 
-TEST_CASE("a ship of a thousand million times the mass goes as a captive one", "[ship]") {
-    World captive = smooth_ride(4000.0, {});
+TEST_CASE("a ship of a thousand million times the mass moves as one on a prescribed course",
+          "[ship]") {
+    World prescribed = smooth_ride(4000.0, {});
     World heavy = smooth_ride(4e12, {surge, sway, yaw});
-    for (World* w : {&captive, &heavy})
+    for (World* w : {&prescribed, &heavy})
         for (int k = 0; k < 100; ++k) step(*w);
     double moved = 0.0;
-    for (std::size_t i = 1; i < captive.scene.bodies.size(); ++i) {
-        const Vec3 &x = captive.scene.bodies.position[i], &y = heavy.scene.bodies.position[i];
+    for (std::size_t i = 1; i < prescribed.scene.bodies.size(); ++i) {
+        const Vec3 &x = prescribed.scene.bodies.position[i], &y = heavy.scene.bodies.position[i];
         CHECK((x - y).norm() < tolerance(1e-6));
-        moved = std::max(moved, captive.scene.bodies.velocity[i].norm());
+        moved = std::max(moved, prescribed.scene.bodies.velocity[i].norm());
     }
     CHECK(moved > 0.1);
 }
@@ -68,15 +69,15 @@ TEST_CASE("ice that drifts past a ship at rest is a ship in still ice", "[ship][
     CHECK(most > 10.0);
 }
 
-TEST_CASE("a heavy ship crushes held ice and jams as a captive one", "[ship][held]") {
+TEST_CASE("a heavy ship crushes held ice and jams as one on a prescribed course", "[ship][held]") {
     // held before the bow, behind the first row, and released by the hull's touch
     for (const auto& [row, hold] :
          {std::pair(0, Hold::always), {1, Hold::always}, {1, Hold::until_hull_contact}}) {
-        World captive = rough_ride(4000.0, {}, 6, row);
+        World prescribed = rough_ride(4000.0, {}, 6, row);
         // so heavy that the ice moves it by less than what a hundred steps of impacts enlarge
         World heavy = rough_ride(4e14, {surge, sway, yaw}, 6, row);
         bool held = false, jammed = false;
-        for (World* w : {&captive, &heavy}) {
+        for (World* w : {&prescribed, &heavy}) {
             w->parameters.floes[0].hold = hold;
             for (int k = 0; k < 100; ++k) {
                 step(*w);
@@ -91,14 +92,16 @@ TEST_CASE("a heavy ship crushes held ice and jams as a captive one", "[ship][hel
         CAPTURE(row);
         CHECK((row == 0 ? held : jammed));
         double moved = 0.0;
-        for (std::size_t i = 1; i < captive.scene.bodies.size(); ++i) {
-            const Vec3 &x = captive.scene.bodies.position[i], &y = heavy.scene.bodies.position[i];
+        for (std::size_t i = 1; i < prescribed.scene.bodies.size(); ++i) {
+            const Vec3 &x = prescribed.scene.bodies.position[i],
+                       &y = heavy.scene.bodies.position[i];
             CHECK((x - y).norm() < tolerance(1e-6));
-            moved = std::max(moved, captive.scene.bodies.velocity[i].norm());
+            moved = std::max(moved, prescribed.scene.bodies.velocity[i].norm());
         }
         CHECK(moved > 0.1);
-        CHECK((captive.scene.bodies.position[kShip] - heavy.scene.bodies.position[kShip]).norm() <
-              tolerance(1e-6));
+        CHECK(
+            (prescribed.scene.bodies.position[kShip] - heavy.scene.bodies.position[kShip]).norm() <
+            tolerance(1e-6));
     }
 }
 

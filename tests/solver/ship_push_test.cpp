@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ship that answers and pushes ice for a long time: it stays stable, and overlaps stay small.
+// A free ship that pushes ice for a long time: it stays stable, and overlaps stay small.
 //
 // Tolerances: 1e-3 m/s is ten of the solver's stops at 1e-4 m/s.
 #include <catch2/catch.hpp>

@@ -32,7 +32,7 @@ inline void check_same_run_file(const std::filesystem::path& expected,
     for (const char* name : {"contact_force", "friction_force", "force", "moment", "pose",
                              "contacts", "moving_floes", "max_overlap", "kinetic_energy"})
         names.push_back(std::string("/ship/") + name);
-    if (a.has("/ship/velocity"))  // a ship that answers
+    if (a.has("/ship/velocity"))  // a free ship
         for (const char* name : {"/ship/velocity", "/ship/angles", "/ship/thrust",
                                  "/ship/tow_force", "/frames/ship_orientation"})
             names.emplace_back(name);

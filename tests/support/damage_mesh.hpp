@@ -104,7 +104,7 @@ inline TriangleMesh truncate_mesh(TriangleMesh mesh, double share) {
     return mesh;
 }
 
-/// A hole: all faces whose middle lies within a distance of a random vertex.
+/// An opening: all faces whose middle lies within a distance of a random vertex.
 inline TriangleMesh tear_mesh(TriangleMesh mesh, double of_diagonal, std::mt19937& random) {
     Eigen::AlignedBox3d box;
     for (const Vec3& v : mesh.vertices) box.extend(v);

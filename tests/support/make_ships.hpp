@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// A box barge that answers, whose motions have answers on paper.
+/// A free box barge, whose motions are known in closed form.
 #pragma once
 
 #include "tests/support/make_worlds.hpp"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A ship that answers: one that a spring and a thrust swing along its course, by hand, and one that
+"""A free ship: one that a spring and a thrust swing along its course, by hand, and one that
 a tow over its deck turns, by its histories.
 
 Along the course, s being how far the ship is ahead of its carriage,
@@ -21,7 +21,7 @@ COLUMNS = "forces.csv"
 
 
 def case(free, more):
-    return f"""title = "a ship that answers"
+    return f"""title = "a free ship"
 [simulation]
 duration = {DURATION}
 time_step = {STEP}

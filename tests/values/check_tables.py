@@ -165,12 +165,12 @@ def check_hv(work, values):
         values.close("hv.csv", "thickness_m", float(row["thickness_m"]), 0.3, 1e-9)
         if speed is not None:
             values.close("hv.csv", "speed_kn", float(row["speed_kn"]), speed * 3600 / 1852, 1e-9)
-        values.equal("hv.csv", "source", row["source"] in ("fixed course", "formula"), True)
+        values.equal("hv.csv", "source", row["source"] in ("prescribed course", "formula"), True)
         if row["source"] == "formula" and speed:
             values.close("hv.csv", "speed", formula(work, row["curve"], speed), pull(speed), 1e-6)
             values.equal("hv.csv", "curve", row["curve"].split(",")[0] in (
                 "Lindqvist 1989", "Jeong 2010"), True)
-        if row["source"] == "fixed course":
+        if row["source"] == "prescribed course":
             low, high = number(row["speed_low"]), number(row["speed_high"])
             values.equal("hv.csv", "speed_low", low is None or low <= (speed or 0.0), True)
             values.equal("hv.csv", "speed_high", high is None or high >= (speed or 0.0), True)

@@ -72,7 +72,7 @@ export class View {
       ship[3 * row + d] + part * (ship[3 * next + d] - ship[3 * row + d])));
   }
 
-  /** Turns the hull of a ship that answers; others keep their heading. */
+  /** Turns the hull of a free ship; others keep their heading. */
   turnShip({ row, part }) {
     const turn = this.run.arrays.ship_turn;
     if (!turn || turn.length === 0) return;

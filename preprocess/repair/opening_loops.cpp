@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/repair/border_loops.hpp"
+#include "preprocess/repair/opening_loops.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ class Walker {
 public:
     explicit Walker(const TriangleMesh& mesh) : mesh_(mesh) {
         for (const MeshEdge& edge : edge_table(mesh)) {
-            // an edge with more triangles one way than the other is a border, walked against
+            // an edge with more triangles one way than the other is open; the walk is against
             // them
             const int net = 2 * edge.forwards - edge.count;
             for (int k = 0; k < std::abs(net); ++k)
@@ -29,7 +29,7 @@ public:
         }
     }
 
-    std::vector<BorderLoop> walk() {
+    std::vector<OpeningLoop> walk() {
         for (auto& [start, steps] : from_)
             for (Step& first : steps)
                 if (!first.used) follow(start, first);
@@ -55,8 +55,8 @@ private:
         return false;
     }
 
-    // Among the ways out of `at` the one that leaves the smallest angle of hole to where we came
-    // from, seen against the surface's normal.
+    // Of the edges that leave `at`, the one that turns least into the opening, seen against the
+    // surface's normal.
     Step* choose(std::int32_t before, std::int32_t at) {
         Step* best = nullptr;
         double best_angle = 0.0;
@@ -67,7 +67,7 @@ private:
         for (Step& step : from_[at]) {
             if (step.used) continue;
             const Vec3 out = vertices[static_cast<std::size_t>(step.to)] - here;
-            // the angle from the way out to the way back, on the side of the hole
+            // the angle from the edge out to the edge back, on the side of the opening
             const Vec3 back = vertices[static_cast<std::size_t>(before)] - here;
             double angle = std::atan2(n.dot(out.cross(back)), n.norm() * out.dot(back));
             if (angle <= 0.0) angle += 2.0 * std::numbers::pi;
@@ -92,10 +92,10 @@ private:
                 path.push_back(step->to);
                 continue;
             }
-            // A border that touches itself in a vertex, as a figure of eight, has a loop on either
+            // A walk that touches itself in a vertex, as a figure of eight, has a loop on either
             // side of it: each is cut off at its second visit.
             const auto cut = static_cast<std::ptrdiff_t>(seen->second);
-            BorderLoop loop;
+            OpeningLoop loop;
             loop.vertices.assign(path.begin() + cut, path.end());
             loop.neighbours.assign(along.begin() + cut, along.end());
             for (std::size_t k = 1; k < loop.vertices.size(); ++k) place.erase(loop.vertices[k]);
@@ -109,11 +109,11 @@ private:
     const TriangleMesh& mesh_;
     std::map<std::int32_t, std::vector<Step>> from_;
     std::map<std::int32_t, Vec3> normals_;
-    std::vector<BorderLoop> loops_;
+    std::vector<OpeningLoop> loops_;
 };
 
 }  // namespace
 
-std::vector<BorderLoop> border_loops(const TriangleMesh& mesh) { return Walker(mesh).walk(); }
+std::vector<OpeningLoop> opening_loops(const TriangleMesh& mesh) { return Walker(mesh).walk(); }
 
 }  // namespace ice

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "preprocess/fill/shell.hpp"
+#include "preprocess/fill/make_layer.hpp"
 
 namespace ice {
 
@@ -12,6 +12,6 @@ namespace ice {
 /// corner where edges end and that has room for a sphere one touches all three faces, however near
 /// the next corner is.
 /// With `mirror` only those with y >= 0.
-std::vector<Seat> seat_lines(const SurfaceTree& tree, const ShellOptions& options);
+std::vector<Seat> seat_lines(const SurfaceTree& tree, const LayerOptions& options);
 
 }  // namespace ice

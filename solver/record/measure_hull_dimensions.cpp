@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/record/hull_form.hpp"
+#include "solver/record/measure_hull_dimensions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ std::pair<double, double> ends_at(const std::vector<Segment>& section, double ha
 
 }  // namespace
 
-std::optional<HullForm> measure_hull_form(const TriangleMesh& hull, double waterline) {
+std::optional<HullDimensions> measure_hull_dimensions(const TriangleMesh& hull, double waterline) {
     const std::vector<Segment> water = cut(hull, waterline);
     if (water.empty()) return std::nullopt;
     double x_low = std::numeric_limits<double>::infinity(), y_low = x_low, y_high = -x_low,
@@ -70,25 +70,26 @@ std::optional<HullForm> measure_hull_form(const TriangleMesh& hull, double water
     }
     for (const Vec3& v : hull.vertices) z_low = std::min(z_low, v.z());
 
-    HullForm form;
+    HullDimensions dimensions;
     const double bow = foremost(water);
-    form.length = bow - x_low;
-    form.breadth = y_high - y_low;
-    form.draught = waterline - z_low;
+    dimensions.length = bow - x_low;
+    dimensions.breadth = y_high - y_low;
+    dimensions.draught = waterline - z_low;
     // The stem's angle is that of the chord down to a tenth of the draught, the entrance angle that
     // of the chord over the foremost quarter of the breadth on one side: both ignore a rounded tip.
-    const double depth = 0.1 * form.draught;
+    const double depth = 0.1 * dimensions.draught;
     const std::vector<Segment> deeper = cut(hull, waterline - depth);
     const double rake = bow - foremost(deeper);
-    const double run = bow - ends_at(water, 0.25 * form.breadth).second;
+    const double run = bow - ends_at(water, 0.25 * dimensions.breadth).second;
     // a flat bow, or a section without depth, has neither angle
-    const bool pointed = !deeper.empty() && form.draught > 0.0 && run > 1e-6 * form.length;
-    form.stem_angle = pointed ? std::atan2(depth, std::max(rake, 0.0)) : std::nan("");
-    form.entrance_angle = pointed ? std::atan2(0.25 * form.breadth, run) : std::nan("");
-    const auto [aft, fore] = ends_at(water, 0.5 * kFullBreadth * form.breadth);
-    form.parallel_length = fore - aft;
-    form.bow_length = bow - fore;
-    return form;
+    const bool pointed =
+        !deeper.empty() && dimensions.draught > 0.0 && run > 1e-6 * dimensions.length;
+    dimensions.stem_angle = pointed ? std::atan2(depth, std::max(rake, 0.0)) : std::nan("");
+    dimensions.entrance_angle = pointed ? std::atan2(0.25 * dimensions.breadth, run) : std::nan("");
+    const auto [aft, fore] = ends_at(water, 0.5 * kFullBreadth * dimensions.breadth);
+    dimensions.parallel_length = fore - aft;
+    dimensions.bow_length = bow - fore;
+    return dimensions;
 }
 
 }  // namespace ice

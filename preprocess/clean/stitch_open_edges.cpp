@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/clean/stitch_borders.hpp"
+#include "preprocess/clean/stitch_open_edges.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -21,8 +21,8 @@ constexpr double kStitchTolerances[] = {3e-4, 1e-3};
 // Width of a crack over the length of an open edge beside it [-], at most. Of more an edge could
 // collapse when its ends move.
 constexpr double kOfEdge = 1.0 / 3.0;
-// Distance over an open edge's length [-] within which another border runs beside it: of a hole the
-// next edge that is not a vertex's own begins a whole length away.
+// Distance over an open edge's length [-] within which another open edge runs beside it: around an
+// opening the next edge that is not a vertex's own begins a whole length away.
 constexpr double kBeside = 0.9;
 // Rounds of splitting and merging at most [-]: each stitch makes room for the next one, and a round
 // without a split ends them. Fewer leave cracks open, more take longer.
@@ -34,18 +34,18 @@ const Vec3& at(const TriangleMesh& mesh, std::int32_t v) {
     return mesh.vertices[static_cast<std::size_t>(v)];
 }
 
-struct Borders {
+struct OpenEdges {
     std::vector<MeshEdge> edges;
     std::vector<std::int32_t> vertices;
     std::vector<double> reach;  // per vertex of the mesh: how wide a crack may be there; 0: none
 };
 
-Borders find_borders(const TriangleMesh& mesh, double tolerance, double of_edge = kOfEdge) {
-    Borders out;
+OpenEdges find_open_edges(const TriangleMesh& mesh, double tolerance, double of_edge = kOfEdge) {
+    OpenEdges out;
     out.reach.assign(mesh.vertices.size(), 0.0);
     for (const MeshEdge& edge : edge_table(mesh)) {
-        // A border vertex may close a crack up to a share of its shorter open edge: beyond, edges
-        // of the surface itself would be drawn together.
+        // A vertex may close a crack up to a share of its shorter open edge: beyond, edges of the
+        // surface itself would be drawn together.
         if (edge.count != 1) continue;
         out.edges.push_back(edge);
         const double most =
@@ -91,22 +91,22 @@ void fill(const Triple& t, std::array<bool, 3> of_mesh, const Inserted& inserted
 }
 
 bool split_edges(TriangleMesh& mesh, double tolerance, StitchCounts& counts) {
-    // open edges, and how far from each a vertex of another border may be
-    const Borders borders = find_borders(mesh, tolerance);
+    // open edges, and how far from each a vertex of another one may be
+    const OpenEdges open = find_open_edges(mesh, tolerance);
     std::vector<Vec3> points;
     std::vector<std::pair<Vec3, Vec3>> segments;
-    for (const std::int32_t v : borders.vertices) points.push_back(at(mesh, v));
+    for (const std::int32_t v : open.vertices) points.push_back(at(mesh, v));
     std::vector<double> reach;
-    for (const MeshEdge& edge : borders.edges) {
+    for (const MeshEdge& edge : open.edges) {
         segments.emplace_back(at(mesh, edge.a), at(mesh, edge.b));
         reach.push_back(
             std::min(tolerance, kOfEdge * (segments.back().second - segments.back().first).norm()));
     }
     Inserted inserted;
-    std::size_t last = points.size();  // a vertex goes into the nearest edge only
+    std::size_t last = points.size();  // a vertex is inserted into the nearest edge only
     for (const NearEdge& near : find_near_edges(points, segments, reach)) {
-        const MeshEdge& edge = borders.edges[near.edge];
-        const std::int32_t v = borders.vertices[near.point];
+        const MeshEdge& edge = open.edges[near.edge];
+        const std::int32_t v = open.vertices[near.point];
         if (near.point == last || v == edge.a || v == edge.b) continue;
         last = near.point;
         inserted[{edge.a, edge.b}].emplace_back(near.along, v);
@@ -134,16 +134,16 @@ bool split_edges(TriangleMesh& mesh, double tolerance, StitchCounts& counts) {
 
 }  // namespace
 
-StitchCounts stitch_borders(TriangleMesh& mesh) {
+StitchCounts stitch_open_edges(TriangleMesh& mesh) {
     StitchCounts counts;
     Eigen::AlignedBox3d box;
     for (const Vec3& v : mesh.vertices) box.extend(v);
-    // narrow cracks first: once closed they are no borders for the wide tolerance
+    // narrow cracks first: once closed they have no open edges for the wide tolerance
     for (const double of_diagonal : kStitchTolerances) {
         const double tolerance = of_diagonal * box.diagonal().norm();
         const auto merge_ends = [&] {
             WeldCounts dropped;
-            counts.merged += merge_near(mesh, find_borders(mesh, tolerance).reach, dropped);
+            counts.merged += merge_near(mesh, find_open_edges(mesh, tolerance).reach, dropped);
         };
         merge_ends();
         // a crack of short steps closes from its ends
@@ -157,12 +157,12 @@ WideCracks find_wide_cracks(const TriangleMesh& mesh) {
     // No tolerance bounds the search here: the cracks are not closed but named, with their width,
     // so that the user can choose one.
     const double longest = std::numeric_limits<double>::infinity();
-    const Borders borders = find_borders(mesh, longest, kBeside);
+    const OpenEdges open = find_open_edges(mesh, longest, kBeside);
     std::vector<Vec3> points;
-    for (const std::int32_t v : borders.vertices) points.push_back(at(mesh, v));
+    for (const std::int32_t v : open.vertices) points.push_back(at(mesh, v));
     std::vector<std::pair<Vec3, Vec3>> segments;
     std::vector<double> reach;
-    for (const MeshEdge& edge : borders.edges) {
+    for (const MeshEdge& edge : open.edges) {
         segments.emplace_back(at(mesh, edge.a), at(mesh, edge.b));
         reach.push_back(kBeside * (segments.back().second - segments.back().first).norm());
     }
@@ -170,10 +170,10 @@ WideCracks find_wide_cracks(const TriangleMesh& mesh) {
     out.vertices = static_cast<std::int64_t>(points.size());
     std::size_t last = points.size();
     for (const NearEdge& near : find_near_edges(points, segments, reach)) {
-        const MeshEdge& edge = borders.edges[near.edge];
-        const std::int32_t v = borders.vertices[near.point];
+        const MeshEdge& edge = open.edges[near.edge];
+        const std::int32_t v = open.vertices[near.point];
         if (near.point == last || v == edge.a || v == edge.b) continue;
-        if (near.distance > borders.reach[static_cast<std::size_t>(v)]) continue;
+        if (near.distance > open.reach[static_cast<std::size_t>(v)]) continue;
         last = near.point;
         ++out.beside_another;
         out.widest = std::max(out.widest, near.distance);

@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
+#include "preprocess/fill/make_layer.hpp"
 #include "preprocess/fill/seat_grid.hpp"
-#include "preprocess/fill/shell.hpp"
 
 namespace ice {
 
@@ -20,9 +20,9 @@ struct Seed {
 };
 
 /// The solid as a whole, seen once for all tiles.
-struct ShellSolid {
+struct LayerSolid {
     /// @param whole  kept by reference
-    explicit ShellSolid(const SurfaceTree& whole);
+    explicit LayerSolid(const SurfaceTree& whole);
 
     const SurfaceTree& tree;
     Eigen::AlignedBox3d box;  ///< of its vertices [m]
@@ -30,13 +30,13 @@ struct ShellSolid {
 };
 
 /// Seats are placed in `box` (by the front) or up to 1.2 spacings around it (to close gaps).
-class ShellTile {
+class LayerTile {
 public:
     /// @param solid  its tree is kept by reference
-    ShellTile(const ShellSolid& solid, const ShellOptions& options, const Eigen::AlignedBox3d& box);
+    LayerTile(const LayerSolid& solid, const LayerOptions& options, const Eigen::AlignedBox3d& box);
 
     /// Takes a seat that already is there, if it is near enough to matter.
-    void know(const Seat& seat);
+    void take_seat(const Seat& seat);
 
     /// Advancing front over faces: round every seat the free places of a hexagon are tried, then
     /// round those, and so on; seeds that no front reached start their own. Of the seeds of a fine
@@ -79,7 +79,7 @@ private:
     const SurfaceTree& tree_;
     bool convex_;
     bool fine_;  // the mesh, beside the radius
-    ShellOptions o_;
+    LayerOptions o_;
     Eigen::AlignedBox3d box_;
     SeatGrid grid_;
     std::vector<Seat> placed_;

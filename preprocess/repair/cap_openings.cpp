@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/repair/cap_holes.hpp"
+#include "preprocess/repair/cap_openings.hpp"
 
 #include <algorithm>
 #include <map>
 #include <set>
 
 #include "common/geometry/edge_table.hpp"
-#include "preprocess/repair/border_loops.hpp"
 #include "preprocess/repair/fill_loop.hpp"
+#include "preprocess/repair/opening_loops.hpp"
 
 namespace ice {
 
@@ -16,15 +16,15 @@ namespace {
 using Key = std::pair<std::int32_t, std::int32_t>;
 using Triple = std::array<std::int32_t, 3>;
 
-// Corners of a hole [-] from which the triangulation in plan is tried, too: a deck has dozens.
-// Smaller holes give the same patch by both, and the second would cost time only. A larger value
+// Corners of an opening [-] from which the triangulation in plan is tried, too: a deck has dozens.
+// Smaller openings give the same patch by both, and the second would cost time only. A larger value
 // may miss decks of few corners.
 constexpr std::size_t kDeckCorners = 8;
 
 Key edge_key(std::int32_t a, std::int32_t b) { return std::minmax(a, b); }
 
 // The far corners of the triangles around the loop.
-std::vector<Vec3> points_across(const TriangleMesh& mesh, const BorderLoop& loop) {
+std::vector<Vec3> points_across(const TriangleMesh& mesh, const OpeningLoop& loop) {
     std::vector<Vec3> across;
     const std::size_t n = loop.vertices.size();
     for (std::size_t k = 0; k < n; ++k) {
@@ -41,7 +41,7 @@ std::vector<Vec3> points_across(const TriangleMesh& mesh, const BorderLoop& loop
 }
 
 // Every edge of the patch that is not on the loop must be new to the mesh.
-bool is_new(const std::vector<Triple>& patch, const BorderLoop& loop, const std::set<Key>& known) {
+bool is_new(const std::vector<Triple>& patch, const OpeningLoop& loop, const std::set<Key>& known) {
     const auto n = static_cast<std::int32_t>(loop.vertices.size());
     for (const Triple& t : patch)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -54,7 +54,7 @@ bool is_new(const std::vector<Triple>& patch, const BorderLoop& loop, const std:
     return !patch.empty();
 }
 
-std::vector<Triple> fan(TriangleMesh& mesh, const BorderLoop& loop) {
+std::vector<Triple> fan(TriangleMesh& mesh, const OpeningLoop& loop) {
     Vec3 middle = Vec3::Zero();
     for (const std::int32_t v : loop.vertices) middle += mesh.vertices[static_cast<std::size_t>(v)];
     const auto center = static_cast<std::int32_t>(mesh.vertices.size());
@@ -74,7 +74,7 @@ double area_of(const std::vector<Vec3>& points, const std::vector<Triple>& patch
     return area;
 }
 
-std::vector<Triple> patch_of(TriangleMesh& mesh, const BorderLoop& loop,
+std::vector<Triple> patch_of(TriangleMesh& mesh, const OpeningLoop& loop,
                              const std::set<Key>& known) {
     std::vector<Vec3> points;
     for (const std::int32_t v : loop.vertices)
@@ -98,7 +98,7 @@ std::vector<Triple> patch_of(TriangleMesh& mesh, const BorderLoop& loop,
     return out;
 }
 
-Cap append(TriangleMesh& mesh, const BorderLoop& loop, const std::vector<Triple>& patch) {
+Cap append(TriangleMesh& mesh, const OpeningLoop& loop, const std::vector<Triple>& patch) {
     Cap cap;
     cap.first = static_cast<std::int32_t>(mesh.triangles.size());
     cap.count = static_cast<std::int32_t>(patch.size());
@@ -121,7 +121,7 @@ Cap append(TriangleMesh& mesh, const BorderLoop& loop, const std::vector<Triple>
         cap.rim.push_back({at->second, loop.neighbours[k], along, length});
         region_length[mesh.region[static_cast<std::size_t>(loop.neighbours[k])]] += length;
     }
-    // A cap belongs to the region that it borders most.
+    // A cap belongs to the region with most of its rim.
     const auto longest =
         std::max_element(region_length.begin(), region_length.end(),
                          [](const auto& l, const auto& r) { return l.second < r.second; });
@@ -132,19 +132,19 @@ Cap append(TriangleMesh& mesh, const BorderLoop& loop, const std::vector<Triple>
 
 }  // namespace
 
-std::vector<Cap> cap_holes(TriangleMesh& mesh) {
-    const auto loops = border_loops(mesh);
+std::vector<Cap> cap_openings(TriangleMesh& mesh) {
+    const auto loops = opening_loops(mesh);
     std::vector<Cap> caps;
     if (loops.empty()) return caps;
     std::set<Key> known;  // edges between the vertices of loops
     std::vector<std::uint8_t> on_loop(mesh.vertices.size(), 0);
-    for (const BorderLoop& loop : loops)
+    for (const OpeningLoop& loop : loops)
         for (const std::int32_t v : loop.vertices) on_loop[static_cast<std::size_t>(v)] = 1;
     // Only edges between loop vertices can be repeated by a patch: the set stays small.
     for (const MeshEdge& edge : edge_table(mesh))
         if (on_loop[static_cast<std::size_t>(edge.a)] && on_loop[static_cast<std::size_t>(edge.b)])
             known.insert({edge.a, edge.b});
-    for (const BorderLoop& loop : loops) {
+    for (const OpeningLoop& loop : loops) {
         const auto patch = patch_of(mesh, loop, known);
         caps.push_back(append(mesh, loop, patch));
         for (const Triple& t : patch)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/fill/shell.hpp"
+#include "preprocess/fill/make_layer.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,10 +7,10 @@
 #include <map>
 
 #include "common/base/parallel.hpp"
+#include "preprocess/fill/layer_tile.hpp"
 #include "preprocess/fill/mirror_seat.hpp"
 #include "preprocess/fill/point_grid.hpp"
-#include "preprocess/fill/shell_lines.hpp"
-#include "preprocess/fill/shell_tile.hpp"
+#include "preprocess/fill/seat_lines.hpp"
 #include "preprocess/fill/surface_samples.hpp"
 
 namespace ice {
@@ -41,9 +41,9 @@ struct Tile {
     std::vector<Seat> own;
 };
 
-class ShellMaker {
+class LayerMaker {
 public:
-    ShellMaker(const SurfaceTree& tree, const ShellOptions& options)
+    LayerMaker(const SurfaceTree& tree, const LayerOptions& options)
         : tree_(tree), solid_(tree), o_(options), width_(kTile * options.spacing) {}
 
     std::vector<Vec3> make() {
@@ -53,10 +53,10 @@ public:
         make_seeds();
         if (o_.dimension == 3) {
             for (const Seat& seat : lines_) tile_at(tile_of(seat.center)).own.push_back(seat);
-            fill_tiles([](ShellTile& work, const Tile& tile) { work.advance_front(tile.seeds); });
+            fill_tiles([](LayerTile& work, const Tile& tile) { work.advance_front(tile.seeds); });
             // only now gaps: a gap at a tile's rim is one only if the neighbour's front left
             // it, too
-            fill_tiles([](ShellTile& work, const Tile& tile) {
+            fill_tiles([](LayerTile& work, const Tile& tile) {
                 work.close_gaps();
                 work.cover(tile.seeds);
             });
@@ -103,7 +103,7 @@ private:
     }
 
     // Runs fill(work, tile) for all tiles, one colour after the other: tiles of one colour are a
-    // tile's width apart, and none looks or places farther than two spacings beyond its own.
+    // tile's width apart, and none searches or places farther than two spacings beyond its own.
     template <class Fill>
     void fill_tiles(const Fill& fill) {
         for (int colour = 0; colour < 8; ++colour) {
@@ -115,8 +115,8 @@ private:
             std::vector<std::vector<Seat>> placed(now.size());
             parallel_tasks(now.size(), is_large(), [&](std::size_t n) {
                 const Tile& tile = tiles_[now[n]];
-                ShellTile work(solid_, o_, box_of(tile));
-                know_neighbours(tile, work);
+                LayerTile work(solid_, o_, box_of(tile));
+                take_neighbours(tile, work);
                 fill(work, tile);
                 placed[n] = work.placed();
             });
@@ -132,13 +132,13 @@ private:
         return {low, low + Vec3::Constant(width_)};
     }
 
-    void know_neighbours(const Tile& tile, ShellTile& work) const {
+    void take_neighbours(const Tile& tile, LayerTile& work) const {
         for (int z = -1; z <= 1; ++z)
             for (int y = -1; y <= 1; ++y)
                 for (int x = -1; x <= 1; ++x) {
                     const auto near = index_.find({tile.at[0] + x, tile.at[1] + y, tile.at[2] + z});
                     if (near == index_.end()) continue;
-                    for (const Seat& seat : tiles_[near->second].own) work.know(seat);
+                    for (const Seat& seat : tiles_[near->second].own) work.take_seat(seat);
                 }
     }
 
@@ -181,8 +181,8 @@ private:
     }
 
     const SurfaceTree& tree_;
-    ShellSolid solid_;
-    ShellOptions o_;
+    LayerSolid solid_;
+    LayerOptions o_;
     double width_;
     std::size_t seed_count_ = 0;
     int steps_done_ = 0;  // of two times eight colours
@@ -193,8 +193,8 @@ private:
 
 }  // namespace
 
-std::vector<Vec3> make_shell(const SurfaceTree& tree, const ShellOptions& options) {
-    return ShellMaker(tree, options).make();
+std::vector<Vec3> make_layer(const SurfaceTree& tree, const LayerOptions& options) {
+    return LayerMaker(tree, options).make();
 }
 
 }  // namespace ice

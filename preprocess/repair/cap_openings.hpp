@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Holes and the caps that close them.
+/// Openings of a surface and the caps that close them.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace ice {
 
-/// Where a cap's triangle meets the surface around the hole.
+/// Where a cap's triangle meets the surface around the opening.
 struct RimEdge {
     std::int32_t patch;      ///< triangle of the cap
     std::int32_t neighbour;  ///< triangle of the surface across the edge
@@ -17,18 +17,18 @@ struct RimEdge {
     double length;           ///< [m]
 };
 
-/// Triangles over one hole: [first, first + count) of the mesh.
+/// Triangles over one opening: [first, first + count) of the mesh.
 struct Cap {
     std::int32_t first = 0, count = 0;
     std::vector<RimEdge> rim;
     double perimeter = 0.0;  ///< [m]
 };
 
-/// Appends a cap to every hole (see border_loops), facing as the surface around it; its region is
-/// the one that has most of the rim. The mesh's boundary is then zero as a chain. Where the best
+/// Appends a cap to every opening (see opening_loops), facing as the surface around it; its region
+/// is the one that has most of the rim. The mesh's boundary is then zero as a chain. Where the best
 /// triangulation would use an edge that the surface has already, the cap is a fan about a new
 /// vertex in the middle of the loop.
 /// @pre the mesh is welded and its faces are oriented
-std::vector<Cap> cap_holes(TriangleMesh& mesh);
+std::vector<Cap> cap_openings(TriangleMesh& mesh);
 
 }  // namespace ice

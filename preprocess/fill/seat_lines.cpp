@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/fill/shell_lines.hpp"
+#include "preprocess/fill/seat_lines.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -30,7 +30,7 @@ constexpr double kEdgeMirrorGap = 0.25;
 using Line = std::vector<Vec3>;
 
 // In 2D the outline is all of the surface: most of it is no crease.
-std::optional<Seat> settle_on_line(const SurfaceTree& tree, const ShellOptions& o,
+std::optional<Seat> settle_on_line(const SurfaceTree& tree, const LayerOptions& o,
                                    const Vec3& start) {
     if (o.dimension == 3) return settle_in_crease(tree, start, o.radius);
     auto seat = settle(tree, start, o.radius);
@@ -40,7 +40,7 @@ std::optional<Seat> settle_on_line(const SurfaceTree& tree, const ShellOptions& 
 
 using Seats = std::vector<std::optional<Seat>>;
 
-Seats settle_starts(const SurfaceTree& tree, const ShellOptions& o, const Line& starts) {
+Seats settle_starts(const SurfaceTree& tree, const LayerOptions& o, const Line& starts) {
     Seats seats(starts.size());
     parallel_for(starts.size(), is_fine_for(tree, o.radius) ? 16 : 4096,
                  [&](std::size_t k) { seats[k] = settle_on_line(tree, o, starts[k]); });
@@ -79,7 +79,7 @@ struct SettledLine {
 };
 
 // The settled centres of a line of starts, cut where the edge is too sharp for a sphere.
-std::vector<SettledLine> settle_line(const SurfaceTree& tree, const ShellOptions& o,
+std::vector<SettledLine> settle_line(const SurfaceTree& tree, const LayerOptions& o,
                                      const Line& starts) {
     const Seats seats = settle_starts(tree, o, starts);
     std::vector<SettledLine> out(1);
@@ -180,7 +180,7 @@ bool is_image(const Line& starts, double radius) {
 
 class LineSeats {
 public:
-    LineSeats(const SurfaceTree& tree, const ShellOptions& options)
+    LineSeats(const SurfaceTree& tree, const LayerOptions& options)
         : tree_(tree), o_(options), placed_(options.spacing) {}
 
     /// @param corners  seats of some of the line's centres
@@ -219,7 +219,7 @@ public:
     }
 
 private:
-    // Of the half y >= 0. Only a corner may stand as near to its own image as it is.
+    // Of the half y >= 0. Only a corner may lie at any distance from its own image.
     std::optional<Seat> in_half(const Seat& seat) const {
         if (!o_.mirror) return seat;
         if (is_corner(seat) && seat.center.y() > kSameCorner * o_.spacing) return seat;
@@ -242,7 +242,7 @@ private:
     }
 
     const SurfaceTree& tree_;
-    ShellOptions o_;
+    LayerOptions o_;
     PointGrid placed_;
     std::vector<Seat> seats_;
     std::vector<Vec3> found_;  // scratch
@@ -250,7 +250,7 @@ private:
 
 }  // namespace
 
-std::vector<Seat> seat_lines(const SurfaceTree& tree, const ShellOptions& options) {
+std::vector<Seat> seat_lines(const SurfaceTree& tree, const LayerOptions& options) {
     const double step = options.line_step * options.spacing;
     const auto lines = options.dimension == 2
                            ? trace_section(tree, options.radius, step)

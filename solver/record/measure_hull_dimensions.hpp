@@ -16,6 +16,6 @@ namespace ice {
 /// reaches a quarter of the breadth. L_par: the part of the waterline that is at least 0.99 B
 /// broad; L_bow: the length ahead of it.
 /// @return nothing when the hull does not cross the water
-std::optional<HullForm> measure_hull_form(const TriangleMesh& hull, double waterline);
+std::optional<HullDimensions> measure_hull_dimensions(const TriangleMesh& hull, double waterline);
 
 }  // namespace ice

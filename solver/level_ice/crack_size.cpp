@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/level_ice/crack_form.hpp"
+#include "solver/level_ice/crack_size.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ double crack_size(const CrackLaw& law, double length, double normal_speed,
 Loop crack_outline(const Vec2& at, const Vec2& inwards, double radius) {
     // The chord lies half a radius seawards of the load, so that ice in front of a notch breaks
     // off with the piece.
-    const Vec2 along(inwards.y(), -inwards.x());  // to the right of one who looks into the ice
+    const Vec2 along(inwards.y(), -inwards.x());  // to the right when facing the ice
     const auto place = [&](double x, double y) -> Vec2 { return at + x * along + y * inwards; };
     Loop out{place(-radius, -kStrip * radius), place(radius, -kStrip * radius)};
     for (int k = 0; k <= kSides; ++k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/fill/shell_tile.hpp"
+#include "preprocess/fill/layer_tile.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,13 +16,13 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 // All in spacings [-]. In a layer of perfect hexagons the neighbours of a seat lie at 1,
-// the next ones at sqrt(3) = 1.73, and the middles of its holes, corners of the Voronoi cells, at 1
-// / sqrt(3) = 0.577 from the nearest seats. The certificate's covering radius is the largest such
+// the next ones at sqrt(3) = 1.73, and the corners of its Voronoi cells at 1 / sqrt(3) = 0.577
+// from the nearest seats. The certificate's covering radius is the largest such
 // distance in the layer: it can be no less than 0.577, and kGap and kCovered lie just above. Lower
-// ones need seats where the separations below leave no room; higher ones leave larger holes.
+// ones need seats where the separations below leave no room; higher ones leave larger gaps.
 //
 // The separations are below 1, because fronts that meet do not fit: a lower one puts more seats
-// into their seams, a higher one leaves holes there for the next stage.
+// into their seams, a higher one leaves gaps there for the next stage.
 constexpr double kHalo = 2.0;             // how far beyond the tile seats matter: over kCellReach
 constexpr double kBeyond = 1.2;           // how far beyond it gaps are closed
 constexpr double kStretch = 1.02;         // of a front's hexagons
@@ -45,7 +45,7 @@ constexpr double kOutside = 0.02;         // beyond a plane: not settled in a co
 // changes the time alone.
 constexpr std::size_t kFewFine = 16;
 // Faces times vertices [-] up to which a mesh is tested for being convex: floes are, hulls are not.
-// A larger value tests more meshes in vain, a smaller one settles starts outside convex solids.
+// A larger value tests more meshes without use, a smaller one settles starts outside convex solids.
 constexpr std::size_t kMostConvexTests = 10000;
 // Height over the largest extent [-] up to which vertices lie in a face's plane. A larger value
 // takes hollow solids for convex ones, a smaller one convex solids for hollow ones by rounding.
@@ -57,7 +57,7 @@ Eigen::AlignedBox3d around(const Eigen::AlignedBox3d& box, double halo) {
 
 }  // namespace
 
-ShellSolid::ShellSolid(const SurfaceTree& whole) : tree(whole), convex(true) {
+LayerSolid::LayerSolid(const SurfaceTree& whole) : tree(whole), convex(true) {
     // every vertex behind every face's plane; tested for small meshes only
     const TriangleMesh& mesh = tree.mesh();
     for (const Vec3& v : mesh.vertices) box.extend(v);
@@ -71,7 +71,7 @@ ShellSolid::ShellSolid(const SurfaceTree& whole) : tree(whole), convex(true) {
     }
 }
 
-ShellTile::ShellTile(const ShellSolid& solid, const ShellOptions& options,
+LayerTile::LayerTile(const LayerSolid& solid, const LayerOptions& options,
                      const Eigen::AlignedBox3d& box)
     : tree_(solid.tree),
       convex_(solid.convex),
@@ -81,7 +81,7 @@ ShellTile::ShellTile(const ShellSolid& solid, const ShellOptions& options,
       grid_(around(box, kHalo * options.spacing).intersection(solid.box),
             kCellReach * options.spacing) {}
 
-void ShellTile::know(const Seat& seat) {
+void LayerTile::take_seat(const Seat& seat) {
     const double halo = kHalo * o_.spacing;
     if (o_.mirror && seat.center.y() > 0.0 && seat.center.y() < halo) {
         const Seat image = image_of(seat);
@@ -90,13 +90,13 @@ void ShellTile::know(const Seat& seat) {
     if (box_.exteriorDistance(seat.center) < halo) grid_.add(seat);
 }
 
-void ShellTile::add(const Seat& seat) {
+void LayerTile::add(const Seat& seat) {
     placed_.push_back(seat);
-    know(seat);
+    take_seat(seat);
 }
 
 // In a fine mesh: a seed as this one was tried before; from now on this one was.
-bool ShellTile::tried_near(const Seed& seed) {
+bool LayerTile::tried_near(const Seed& seed) {
     if (!fine_) return false;
     const double cube = kAlike * std::min(o_.spacing, o_.radius);
     const Vec3& normal = tree_.normal(seed.triangle);
@@ -112,7 +112,7 @@ bool ShellTile::tried_near(const Seed& seed) {
     return !tried_.insert(key).second;
 }
 
-bool ShellTile::place(const Vec3& start, std::int32_t hint, double separation, double mirror_gap,
+bool LayerTile::place(const Vec3& start, std::int32_t hint, double separation, double mirror_gap,
                       bool outside_too) {
     const double s = o_.spacing;
     Vec3 from = start;
@@ -135,7 +135,7 @@ bool ShellTile::place(const Vec3& start, std::int32_t hint, double separation, d
 }
 
 // The planes in which a seat has neighbours: one, or one for each face met in a crease.
-const std::vector<ShellTile::Plane>& ShellTile::planes_at(const Seat& seat) {
+const std::vector<LayerTile::Plane>& LayerTile::planes_at(const Seat& seat) {
     const auto plane = [&](const Vec3& normal) {
         // fronts that start apart on one flat face get rows along the same direction
         const Vec3 axis = std::abs(normal.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitZ();
@@ -151,7 +151,7 @@ const std::vector<ShellTile::Plane>& ShellTile::planes_at(const Seat& seat) {
 // Is a start beside the seat of planes_ beyond one of the faces that it touches? In a convex solid
 // that is outside, where nothing settles. The touches may lean by sqrt(2e-5) from the faces'
 // normals (two distances within 1e-5 count as touches), a hundredth of a spacing at a start.
-bool ShellTile::is_outside(const Vec3& start) const {
+bool LayerTile::is_outside(const Vec3& start) const {
     const double most = o_.radius + kOutside * o_.spacing;
     return convex_ && std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
                return plane.normal.dot(start - plane.centre) > most;
@@ -160,7 +160,7 @@ bool ShellTile::is_outside(const Vec3& start) const {
 
 // The seats that represent the same face, so that those of the other side of a thin part neither
 // count nor are in the way.
-void ShellTile::neighbours_in(const Plane& plane, double range) {
+void LayerTile::neighbours_in(const Plane& plane, double range) {
     neighbours_.clear();
     grid_.visit(plane.centre, range, [&](std::int32_t k, double sq) {
         if (sq < 1e-12 * range * range) return false;  // itself
@@ -172,7 +172,7 @@ void ShellTile::neighbours_in(const Plane& plane, double range) {
     });
 }
 
-void ShellTile::surround_in(const Plane& plane, std::int32_t hint) {
+void LayerTile::surround_in(const Plane& plane, std::int32_t hint) {
     const double s = kStretch * o_.spacing;
     neighbours_in(plane, kReach * s);
     for (Neighbour& n : neighbours_) n.angle = std::atan2(n.v, n.u);
@@ -191,13 +191,13 @@ void ShellTile::surround_in(const Plane& plane, std::int32_t hint) {
     }
     const std::size_t count = neighbours_.size();
     for (std::size_t k = 0; k < count; ++k) {
-        // Six neighbours of a hexagon stand 60 degrees apart: a gap of more than 90 degrees
+        // Six neighbours of a hexagon are 60 degrees apart: a gap of more than 90 degrees
         // takes another one, or several.
         const double end =
             k + 1 < count ? neighbours_[k + 1].angle : neighbours_.front().angle + 2.0 * kPi;
         double angle = neighbours_[k].angle, distance = neighbours_[k].distance;
         while (end - angle > kPi / 2.0) {
-            // one place between two neighbours stands midway; of more, the first stands at the
+            // one place between two neighbours is midway; of more, the first is at the
             // spacing from both the centre and the neighbour
             const bool last = end - angle < 5.0 / 6.0 * kPi;
             angle += last ? 0.5 * (end - angle)
@@ -209,11 +209,11 @@ void ShellTile::surround_in(const Plane& plane, std::int32_t hint) {
     }
 }
 
-void ShellTile::surround(const Seat& seat) {
+void LayerTile::surround(const Seat& seat) {
     for (const Plane& plane : planes_at(seat)) surround_in(plane, seat.triangle);
 }
 
-void ShellTile::advance_front(const std::vector<Seed>& seeds) {
+void LayerTile::advance_front(const std::vector<Seed>& seeds) {
     auto run = [&, next = std::size_t{0}]() mutable {
         for (; next < grid_.seats().size(); ++next) {
             const Seat seat = grid_.seats()[next];
@@ -231,7 +231,7 @@ void ShellTile::advance_front(const std::vector<Seed>& seeds) {
     }
 }
 
-void ShellTile::close_gaps_in(const Plane& plane, std::int32_t hint) {
+void LayerTile::close_gaps_in(const Plane& plane, std::int32_t hint) {
     const double s = o_.spacing;
     neighbours_in(plane, kCellReach * s);
     std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& l, const Neighbour& r) {
@@ -243,7 +243,7 @@ void ShellTile::close_gaps_in(const Plane& plane, std::int32_t hint) {
     double far_sq = 2.0 * half * half;  // of the cell's farthest corner from the centre
     for (const Neighbour& n : neighbours_) {
         // the line half way to a neighbour is at least half its distance away: it and those after
-        // it cut nothing off (the hair is for rounding)
+        // it cut nothing off; 1e-9 covers rounding
         if (0.25 * n.distance * n.distance > far_sq * (1.0 + 1e-9)) break;
         // keep the points nearer to the centre than to its neighbour n: x . n <= |n|^2 / 2
         const double length = std::hypot(n.u, n.v);
@@ -274,7 +274,7 @@ void ShellTile::close_gaps_in(const Plane& plane, std::int32_t hint) {
     }
 }
 
-void ShellTile::close_gaps() {
+void LayerTile::close_gaps() {
     for (std::size_t k = 0; k < grid_.seats().size(); ++k) {
         const Seat seat = grid_.seats()[k];
         if (o_.mirror && seat.center.y() < 0.0) continue;
@@ -283,7 +283,7 @@ void ShellTile::close_gaps() {
     }
 }
 
-void ShellTile::cover(const std::vector<Seed>& seeds) {
+void LayerTile::cover(const std::vector<Seed>& seeds) {
     const double range = kCovered * o_.spacing;
     const auto is_covered = [&](const Seed& seed) {
         return grid_.any_within(seed.seat, range, tree_.normal(seed.triangle));

@@ -5,7 +5,7 @@
 
 namespace ice {
 
-/// Counts of stitch_borders(), for the report.
+/// Counts of stitch_open_edges(), for the report.
 struct StitchCounts {
     std::int64_t merged = 0;  ///< vertices merged with a vertex across the crack
     std::int64_t split = 0;   ///< open edges split at the vertices across the crack
@@ -19,7 +19,7 @@ struct StitchCounts {
 /// they wider than a third of the open edges there, so that no edge collapses. The first of merged
 /// vertices keeps its place, as do all others. Cost O(B log B) for B open edges.
 /// @pre the mesh is welded
-StitchCounts stitch_borders(TriangleMesh& mesh);
+StitchCounts stitch_open_edges(TriangleMesh& mesh);
 
 /// Cracks that are too wide to be stitched.
 struct WideCracks {
@@ -28,8 +28,8 @@ struct WideCracks {
     double widest = 0.0;              ///< of the cracks there [m]
 };
 
-/// Open edges that others run beside, nearer than 0.9 of their own lengths: of a hole, an edge that
-/// is not a vertex's own begins a whole length away. Cost O(B log B).
+/// Open edges that others run beside, nearer than 0.9 of their own lengths: around an opening, an
+/// edge that is not a vertex's own begins a whole length away. Cost O(B log B).
 WideCracks find_wide_cracks(const TriangleMesh& mesh);
 
 }  // namespace ice
