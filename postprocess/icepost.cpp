@@ -20,7 +20,7 @@
 #include "postprocess/report/compare_runs.hpp"
 #include "postprocess/report/draw_plot.hpp"
 #include "postprocess/report/evaluate_run.hpp"
-#include "postprocess/report/pictures.hpp"
+#include "postprocess/report/sections.hpp"
 #include "postprocess/report/write_report.hpp"
 #include "postprocess/sensitivity/write_study.hpp"
 #include "postprocess/sweep/affected_runs.hpp"

@@ -14,7 +14,7 @@ namespace ice {
 /// In all of them: NaN where a quantity cannot be measured, which is null in JSON.
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// The ship at calm water, measured from the mesh (solver/record/particulars.hpp).
+/// The ship at calm water, measured from the mesh (solver/record/measure_particulars.hpp).
 struct ShipParticulars {
     double length = kUnknown, breadth = kUnknown;  ///< of the waterline [m]; 2D: length only
     double draught = kUnknown;                     ///< [m]

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "postprocess/attain/thrust.hpp"
+#include "postprocess/attain/read_thrusts.hpp"
 
 namespace ice::attain {
 

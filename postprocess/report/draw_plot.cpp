@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "common/base/error.hpp"
-#include "postprocess/report/pictures.hpp"
+#include "postprocess/report/sections.hpp"
 #include "postprocess/report/write_report.hpp"
 #include "postprocess/views/chart.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "postprocess/read/run_folder.hpp"
+#include "postprocess/read/read_run_folder.hpp"
 
 namespace ice::report {
 

@@ -9,7 +9,7 @@
 #include "common/base/units.hpp"
 #include "common/formulas/formula_band.hpp"
 #include "postprocess/report/page.hpp"
-#include "postprocess/report/pictures.hpp"
+#include "postprocess/report/sections.hpp"
 #include "postprocess/report/tables.hpp"
 #include "postprocess/views/svg.hpp"
 

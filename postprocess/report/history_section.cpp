@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "postprocess/report/page.hpp"
-#include "postprocess/report/pictures.hpp"
+#include "postprocess/report/sections.hpp"
 #include "postprocess/views/chart.hpp"
 #include "postprocess/views/decimate.hpp"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "postprocess/report/page.hpp"
-#include "postprocess/report/pictures.hpp"
+#include "postprocess/report/sections.hpp"
 #include "postprocess/views/load_view.hpp"
 #include "postprocess/views/svg.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "postprocess/report/page.hpp"
-#include "postprocess/report/pictures.hpp"
+#include "postprocess/report/sections.hpp"
 #include "postprocess/report/tables.hpp"
 #include "postprocess/statistics/panel_map.hpp"
 #include "postprocess/views/chart.hpp"

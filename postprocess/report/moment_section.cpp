@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "postprocess/report/page.hpp"
-#include "postprocess/report/pictures.hpp"
+#include "postprocess/report/sections.hpp"
 #include "postprocess/statistics/line_of_action.hpp"
 #include "postprocess/views/svg.hpp"
 

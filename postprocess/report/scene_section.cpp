@@ -9,7 +9,7 @@
 
 #include "common/base/error.hpp"
 #include "postprocess/report/page.hpp"
-#include "postprocess/report/pictures.hpp"
+#include "postprocess/report/sections.hpp"
 #include "postprocess/views/chart.hpp"
 #include "postprocess/views/floe_style.hpp"
 

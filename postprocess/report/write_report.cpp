@@ -13,7 +13,7 @@
 #include "postprocess/report/find_sweep.hpp"
 #include "postprocess/report/formula_section.hpp"
 #include "postprocess/report/page.hpp"
-#include "postprocess/report/pictures.hpp"
+#include "postprocess/report/sections.hpp"
 #include "postprocess/report/tables.hpp"
 #include "postprocess/views/svg.hpp"
 

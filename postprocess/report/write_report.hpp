@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "postprocess/read/run_folder.hpp"
+#include "postprocess/read/read_run_folder.hpp"
 
 namespace ice::report {
 

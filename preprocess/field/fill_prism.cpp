@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "common/base/error.hpp"
-#include "preprocess/field/prism.hpp"
+#include "preprocess/field/make_prism.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
 
 namespace ice {

@@ -11,12 +11,12 @@
 #include "common/base/error.hpp"
 #include "common/base/timer.hpp"
 #include "common/formats/hexagonal_layer.hpp"
-#include "preprocess/fill/certificate.hpp"
 #include "preprocess/fill/corners.hpp"
 #include "preprocess/fill/drop_outside.hpp"
 #include "preprocess/fill/inscribed.hpp"
 #include "preprocess/fill/lattice.hpp"
 #include "preprocess/fill/make_layer.hpp"
+#include "preprocess/fill/measure_certificate.hpp"
 #include "preprocess/fill/shares.hpp"
 #include "preprocess/fill/twins.hpp"
 #include "preprocess/measure/mirror_symmetry.hpp"
@@ -211,7 +211,7 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
     const std::vector<Sight> sights = survey_surface(tree, set, finder, mirror, o.quick);
     share_surface(tree, sights, twins, set);
     report.seconds["shares"] = measuring.seconds();
-    if (!o.quick) certify(tree, finder, sights, mirror, set, report);
+    if (!o.quick) measure_certificate(tree, finder, sights, mirror, set, report);
     report.seconds["certificate"] = measuring.seconds() - report.seconds["shares"];
 
     tell(o, "interior");

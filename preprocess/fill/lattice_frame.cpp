@@ -94,8 +94,8 @@ Row row_along(const FlatFaces& faces, double low, double extent, double radius, 
         return std::floor((length - 2.0 * radius) / pitch + kMultiple) + 1.0;
     };
     Row row;
-    // Where the extent is no multiple of the pitch a rest remains at one end. It goes to the
-    // end without the largest flat face, which gets tangent spheres.
+    // If the extent is no multiple of the pitch, a rest remains at one end: the one without the
+    // largest flat face, which gets tangent spheres.
     row.count = std::max(1.0, fitting(extent));
     // spheres from end to end, or the same remainder at both ends
     row.first = low + 0.5 * (extent - pitch * (row.count - 1.0));

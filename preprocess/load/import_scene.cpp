@@ -23,9 +23,9 @@
 #include "common/base/error.hpp"
 #include "common/base/rehearse.hpp"
 #include "common/geometry/find_equal.hpp"
+#include "preprocess/load/frame_of.hpp"
 #include "preprocess/load/gunzip.hpp"
 #include "preprocess/load/mesh_bytes.hpp"
-#include "preprocess/load/scene_frame.hpp"
 
 namespace ice {
 

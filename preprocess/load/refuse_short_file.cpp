@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // PLY, OFF and binary STL state the amount of data after their header. It is counted before any
 // reader sees the file: assimp 5.2 crashes on PLY and OFF files that were cut off.
+#include "preprocess/load/refuse_short_file.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +16,6 @@
 #include <vector>
 
 #include "common/base/error.hpp"
-#include "preprocess/load/cut_off.hpp"
 
 namespace ice {
 
@@ -182,7 +183,7 @@ void check_stl_length(const std::filesystem::path& file, std::ifstream& in) {
     std::array<char, 84> head{};
     in.read(head.data(), head.size());
     const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
-    // text is judged by its last line (cut_off.cpp)
+    // text is judged by its last line (looks_cut_off.cpp)
     if (std::string_view(head.data(), 5) == "solid") return;
     if (size < 84)
         throw bad_input(file.string(),

@@ -7,7 +7,7 @@
 
 #include "common/base/parallel.hpp"
 #include "common/geometry/edge_table.hpp"
-#include "preprocess/clean/self_intersections.hpp"
+#include "preprocess/clean/find_self_intersections.hpp"
 
 namespace ice {
 

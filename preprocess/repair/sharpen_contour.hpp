@@ -8,9 +8,9 @@
 
 namespace ice {
 
-/// Moves vertices of a contour onto the creases and corners of the surface it was taken from, which
-/// its cells cut off: of an edge whose ends lie on faces over 30 degrees apart, one end goes to
-/// where these faces meet, or the edge is turned, so that edges of the contour follow the crease
+/// Moves vertices of a contour onto the creases and corners of its source, which the contour's
+/// cells cut off. Where the ends of an edge lie on faces over 30 degrees apart, one end moves to
+/// the crease of these faces, or the edge is turned, so that edges of the contour follow the crease
 /// (as in Kobbelt et al., Feature sensitive surface extraction, SIGGRAPH 2001, but with vertices
 /// moved instead of added; recalled, not looked up). A vertex stays where the move is longer than
 /// 1.5 cells, ends off the surface, or leaves a triangle that is folded or crosses another.

@@ -3,7 +3,7 @@
 
 #include "common/base/parallel.hpp"
 #include "common/geometry/surface_tree.hpp"
-#include "preprocess/clean/self_intersections.hpp"
+#include "preprocess/clean/find_self_intersections.hpp"
 #include "preprocess/repair/winding_solid.hpp"
 
 namespace ice {

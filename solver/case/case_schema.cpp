@@ -32,7 +32,7 @@ using G = FloeGroup;
 
 // Columns of all these tables: path, kind, unit, default ("" for a key that must be given, "-"
 // for one that may be missing), least and greatest value, count of numbers, choices,
-// description, and where the value goes.
+// description, and the member that takes the value.
 std::vector<CaseKey> run_keys() {
     return {
         {"title", Kind::text, D::none, "\"\"", 0, 0, 0, "",

@@ -10,7 +10,7 @@
 
 namespace ice {
 
-/// One key of the case file and where its value goes.
+/// One key of the case file and the member that takes its value.
 struct CaseKey : Key {
     void (*store)(Case&, FloeGroup&, const Value&);
 };

@@ -148,8 +148,7 @@ void take_drift(Case& checked, std::size_t groups, const Values& values,
     if (checked.dimension == 2 && y != 0.0)
         complaints.add_at("ice.drift_velocity",
                           "ice.drift_velocity leaves the plane y = 0 of a 2D case");
-    // the water goes with the ice unless the case says otherwise: nothing then drags on free
-    // floes
+    // unless the case gives a current, the water drifts with the ice: no drag on free floes
     if (const auto given = values.find("flow.current");
         given == values.end() ||
         std::get<std::vector<double>>(given->second) == std::vector<double>{0.0, 0.0})

@@ -9,7 +9,7 @@
 
 #include "common/base/error.hpp"
 #include "common/formats/spheres_file.hpp"
-#include "solver/record/particulars.hpp"
+#include "solver/record/measure_particulars.hpp"
 #include "solver/run/check_course.hpp"
 #include "solver/scene/build_scene.hpp"
 #include "solver/scene/ice_extent.hpp"

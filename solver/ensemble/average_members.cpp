@@ -11,7 +11,7 @@
 #include "common/base/assert.hpp"
 #include "common/base/uncertainty.hpp"
 #include "solver/record/statistics.hpp"
-#include "solver/record/trend_warning.hpp"
+#include "solver/record/warn_of_trend.hpp"
 
 namespace ice {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/live_edge/edge_record.hpp"
 
-#include "preprocess/field/prism.hpp"
+#include "preprocess/field/make_prism.hpp"
 
 namespace ice {
 

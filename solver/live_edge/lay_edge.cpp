@@ -12,7 +12,7 @@
 #include "solver/live_edge/put_ice.hpp"
 #include "solver/live_edge/slot_shapes.hpp"
 #include "solver/live_edge/strip.hpp"
-#include "solver/scene/added_mass_of_floes.hpp"
+#include "solver/scene/set_added_mass.hpp"
 
 namespace ice {
 

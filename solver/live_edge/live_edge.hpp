@@ -37,13 +37,17 @@ struct IceAreas {
 /// load between them (docs/design-notes.md).
 ///
 /// Polygon, tiles and cracks are in the ice's own axes, which drift with it: places in the world
-/// are theirs plus drift() times the time. So ice that drifts past a ship is the same to it as a
-/// ship in ice.
+/// are theirs plus drift() times the time. A ship at rest in drifting ice therefore has the results
+/// of a ship that advances in ice at rest.
 ///
 /// In 2D the sheet is a strip (strip.hpp): areas are lengths, per metre of breadth.
 ///
 /// Bodies come from a fixed number of slots; floes further astern than half a ship's length, or the
 /// last one where no slot is left, are taken out of the scene.
+///
+/// Stages by source: begin_edge.cpp lays the sheet and its slots before the first step;
+/// live_edge.cpp finds the cracks of a step and cuts pieces from the polygon (find, renew);
+/// lay_edge.cpp makes tiles and pieces bodies; edge_state.cpp carries the state of checkpoints.
 class LiveEdge {
 public:
     /// Is there a sheet?

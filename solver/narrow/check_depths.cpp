@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "solver/narrow/deep_seats.hpp"
-#include "solver/narrow/solid_contacts.hpp"
+#include "solver/narrow/find_polygon.hpp"
 #include "solver/narrow/way_out.hpp"
 
 namespace ice {

@@ -8,13 +8,13 @@
 
 #include "solver/narrow/check_depths.hpp"
 #include "solver/narrow/deep_seats.hpp"
+#include "solver/narrow/find_polygon.hpp"
 #include "solver/narrow/make_centre_contacts.hpp"
 #include "solver/narrow/make_contacts.hpp"
 #include "solver/narrow/measure_spheres.hpp"
 #include "solver/narrow/reduce_manifold.hpp"
 #include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/separation.hpp"
-#include "solver/narrow/solid_contacts.hpp"
 
 namespace ice {
 

@@ -8,8 +8,8 @@
 
 #include "common/base/assert.hpp"
 #include "solver/narrow/deep_seats.hpp"
+#include "solver/narrow/find_polygon.hpp"
 #include "solver/narrow/separation.hpp"
-#include "solver/narrow/solid_contacts.hpp"
 
 namespace ice {
 

@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "solver/record/run_statistics.hpp"
-#include "solver/record/trend_warning.hpp"
+#include "solver/record/warn_of_trend.hpp"
 
 namespace ice {
 

@@ -6,7 +6,7 @@
 
 #include "common/formats/summary_file.hpp"
 #include "solver/record/long_series.hpp"
-#include "solver/record/particulars.hpp"
+#include "solver/record/measure_particulars.hpp"
 #include "solver/ship/free_ship.hpp"
 
 namespace ice {

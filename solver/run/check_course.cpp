@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/record/particulars.hpp"
+#include "solver/record/measure_particulars.hpp"
 #include "solver/scene/ice_extent.hpp"
 
 namespace ice {

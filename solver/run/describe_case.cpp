@@ -12,7 +12,7 @@
 #include "common/base/units.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "solver/bending/breaking_load.hpp"
-#include "solver/record/particulars.hpp"
+#include "solver/record/measure_particulars.hpp"
 #include "solver/run/check_course.hpp"
 #include "solver/scene/ice_extent.hpp"
 

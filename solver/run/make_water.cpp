@@ -14,7 +14,7 @@
 #include "common/cli/console.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "solver/flow/flow_table.hpp"
-#include "solver/record/particulars.hpp"
+#include "solver/record/measure_particulars.hpp"
 
 namespace ice {
 

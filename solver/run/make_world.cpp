@@ -9,9 +9,9 @@
 
 #include "common/base/assert.hpp"
 #include "common/base/error.hpp"
-#include "solver/scene/breaking_loads.hpp"
 #include "solver/scene/build_scene.hpp"
 #include "solver/scene/place_hull.hpp"
+#include "solver/scene/set_breaking_loads.hpp"
 #include "solver/water/hydrostatics.hpp"
 
 namespace ice {

@@ -12,15 +12,15 @@
 #include "common/base/part_file.hpp"
 #include "common/base/timer.hpp"
 #include "common/base/version.hpp"
-#include "solver/record/open_end.hpp"
-#include "solver/record/particulars.hpp"
+#include "solver/record/measure_particulars.hpp"
 #include "solver/record/recorder.hpp"
-#include "solver/run/balance.hpp"
+#include "solver/record/warn_of_open_end.hpp"
 #include "solver/run/disk_room.hpp"
 #include "solver/run/make_water.hpp"
+#include "solver/run/measure_imbalance.hpp"
 #include "solver/run/run_folder.hpp"
-#include "solver/scene/added_mass_of_floes.hpp"
 #include "solver/scene/build_scene.hpp"
+#include "solver/scene/set_added_mass.hpp"
 
 namespace ice {
 

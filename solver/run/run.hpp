@@ -22,7 +22,8 @@ struct RunOptions {
     double checkpoint_every = 0.0;
     SavedRun* saved = nullptr;                 ///< resume this run; its recorder is taken over
     std::vector<Warning> start_warnings = {};  ///< of check_start(), for the summary
-    bool verify = false;  ///< every step must balance (balance.hpp); the worst is in the summary
+    bool verify =
+        false;  ///< every step must balance (measure_imbalance.hpp); the worst is in the summary
     /// Called after every step with (fraction done [-], world); false ends the run as
     /// "interrupted", with a checkpoint.
     std::function<bool(double, const World&)> keep_going = [](double, const World&) {

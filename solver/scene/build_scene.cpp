@@ -10,11 +10,11 @@
 #include "common/base/error.hpp"
 #include "common/formats/field_file.hpp"
 #include "common/formats/spheres_file.hpp"
-#include "solver/scene/breaking_loads.hpp"
+#include "solver/scene/apply_jitter.hpp"
 #include "solver/scene/ice_extent.hpp"
 #include "solver/scene/inertia_of.hpp"
-#include "solver/scene/jitter.hpp"
 #include "solver/scene/place_hull.hpp"
+#include "solver/scene/set_breaking_loads.hpp"
 #include "solver/water/hydrostatics.hpp"
 
 namespace ice {

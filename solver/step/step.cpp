@@ -7,7 +7,7 @@
 
 #include "common/base/timer.hpp"
 #include "solver/loads/potential_energy.hpp"
-#include "solver/step/release_floes.hpp"
+#include "solver/step/release_touched.hpp"
 
 namespace ice {
 

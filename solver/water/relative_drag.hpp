@@ -10,8 +10,8 @@ namespace ice {
 
 /// Force and moment, and the power that drag dissipates.
 struct RelativeDrag : WaterLoad {
-    double loss = 0.0;  ///< -int u . dF >= 0 [W], D of (25): the rest of -(F . v + T . w) goes to
-                        ///< the water
+    double loss = 0.0;  ///< -int u . dF >= 0 [W], D of (25): the water receives the rest of
+                        ///< -(F . v + T . w)
 };
 
 /// panel_drag() with the velocity relative to water that moves, u = v + w x r - v_w, linear

@@ -6,9 +6,10 @@
 #include "preprocess/clean/find_parts.hpp"
 #include "preprocess/clean/orient_faces.hpp"
 #include "preprocess/clean/weld.hpp"
-#include "preprocess/load/cut_off.hpp"
 #include "preprocess/load/half_hull.hpp"
+#include "preprocess/load/looks_cut_off.hpp"
 #include "preprocess/load/read_mesh.hpp"
+#include "preprocess/load/refuse_short_file.hpp"
 #include "tests/fuzz/input_folder.hpp"
 #include "tests/fuzz/library_faults.hpp"
 

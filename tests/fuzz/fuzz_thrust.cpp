@@ -6,7 +6,7 @@
 
 #include "common/base/error.hpp"
 #include "common/formulas/coefficients_file.hpp"
-#include "postprocess/attain/thrust.hpp"
+#include "postprocess/attain/read_thrusts.hpp"
 #include "tests/fuzz/input_folder.hpp"
 
 using namespace ice;

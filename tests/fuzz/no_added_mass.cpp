@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Takes the place of solver/scene/added_mass_of_floes.cpp in targets whose floes move no water: it
+// Takes the place of solver/scene/set_added_mass.cpp in targets whose floes move no water: it
 // needs the flow's panels, which take long to compile.
-#include "solver/scene/added_mass_of_floes.hpp"
+#include "solver/scene/set_added_mass.hpp"
 #include "tests/fuzz/input_folder.hpp"
 
 namespace ice {

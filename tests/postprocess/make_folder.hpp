@@ -2,7 +2,7 @@
 /// A run folder in memory, as read_run_folder() would give it.
 #pragma once
 
-#include "postprocess/read/run_folder.hpp"
+#include "postprocess/read/read_run_folder.hpp"
 #include "tests/common/fixtures.hpp"
 
 namespace ice::test {

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "common/base/uncertainty.hpp"
-#include "postprocess/report/pictures.hpp"
+#include "postprocess/report/sections.hpp"
 #include "postprocess/report/tables.hpp"
 #include "postprocess/report/write_report.hpp"
 #include "tests/postprocess/make_folder.hpp"

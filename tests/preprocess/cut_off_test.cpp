@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files that end too early.
-#include "preprocess/load/cut_off.hpp"
-
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "preprocess/load/looks_cut_off.hpp"
+#include "preprocess/load/refuse_short_file.hpp"
 #include "tests/support/make_meshes.hpp"
 
 using namespace ice;

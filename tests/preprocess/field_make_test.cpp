@@ -14,7 +14,7 @@
 #include "common/base/parallel.hpp"
 #include "common/formats/field_file.hpp"
 #include "preprocess/field/plan_floes.hpp"
-#include "preprocess/fill/certificate.hpp"
+#include "preprocess/fill/measure_certificate.hpp"
 #include "tests/preprocess/field_support.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -120,8 +120,8 @@ TEST_CASE("floes are covered as spherize covers solids, by its own certificate",
             const SurfaceTree tree(shape.mesh);
             const SphereFinder finder(shape);
             SpheresReport certificate;
-            certify(tree, finder, survey_surface(tree, shape, finder, false), false, shape,
-                    certificate);
+            measure_certificate(tree, finder, survey_surface(tree, shape, finder, false), false,
+                                shape, certificate);
             REQUIRE(certificate.covering_radius < 0.75 * field.spacing);
             REQUIRE(certificate.protrusion_max < tolerance(1e-9));
         }

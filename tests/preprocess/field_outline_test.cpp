@@ -9,8 +9,8 @@
 
 #include "common/geometry/edge_table.hpp"
 #include "common/geometry/mass_properties.hpp"
+#include "preprocess/field/make_prism.hpp"
 #include "preprocess/field/polygon_checks.hpp"
-#include "preprocess/field/prism.hpp"
 #include "tests/support/tolerance.hpp"
 
 using namespace ice;

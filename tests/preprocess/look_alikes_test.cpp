@@ -9,7 +9,7 @@
 
 #include "common/geometry/mass_properties.hpp"
 #include "preprocess/clean/find_parts.hpp"
-#include "preprocess/clean/self_intersections.hpp"
+#include "preprocess/clean/find_self_intersections.hpp"
 #include "preprocess/repair/check_solid.hpp"
 #include "tests/support/make_hull.hpp"
 #include "tests/support/tolerance.hpp"

@@ -12,7 +12,7 @@
 
 #include "common/base/parallel.hpp"
 #include "common/geometry/mass_properties.hpp"
-#include "preprocess/clean/self_intersections.hpp"
+#include "preprocess/clean/find_self_intersections.hpp"
 #include "preprocess/measure/row_volumes.hpp"
 #include "preprocess/repair/check_solid.hpp"
 #include "preprocess/repair/make_solid.hpp"

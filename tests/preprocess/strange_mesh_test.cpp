@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "common/base/error.hpp"
-#include "preprocess/load/cut_off.hpp"
 #include "preprocess/load/read_mesh.hpp"
+#include "preprocess/load/refuse_short_file.hpp"
 #include "preprocess/repair/make_solid.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/mesh_texts.hpp"

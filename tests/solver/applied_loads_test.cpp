@@ -4,8 +4,8 @@
 // Tolerances: 1e-9 is rounding of the same 200 sums, of a difference of energies.
 #include <catch2/catch.hpp>
 
-#include "solver/run/balance.hpp"
 #include "solver/run/make_world.hpp"
+#include "solver/run/measure_imbalance.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 #include "tests/support/tolerance.hpp"
 

@@ -2,12 +2,11 @@
 // The check of momentum: it passes what balances and names what does not.
 //
 // Tolerances: 1e-14 is rounding of a few momenta of one size, 1e-16 each.
-#include "solver/run/balance.hpp"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "common/base/error.hpp"
+#include "solver/run/measure_imbalance.hpp"
 #include "solver/water/hydrostatics.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/support/tolerance.hpp"

@@ -11,8 +11,8 @@
 #include <set>
 
 #include "solver/narrow/find_contacts.hpp"
+#include "solver/narrow/find_polygon.hpp"
 #include "solver/narrow/nearest_sphere.hpp"
-#include "solver/narrow/solid_contacts.hpp"
 #include "tests/support/make_prisms.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/support/tolerance.hpp"

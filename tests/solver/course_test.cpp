@@ -5,7 +5,7 @@
 // m, with a reserve.
 #include <catch2/catch.hpp>
 
-#include "solver/record/open_end.hpp"
+#include "solver/record/warn_of_open_end.hpp"
 #include "solver/run/check_course.hpp"
 #include "solver/run/describe_case.hpp"
 #include "solver/scene/ice_extent.hpp"

@@ -9,7 +9,7 @@
 
 #include "solver/ensemble/average_members.hpp"
 #include "solver/record/result_text.hpp"
-#include "solver/record/trend_warning.hpp"
+#include "solver/record/warn_of_trend.hpp"
 #include "tests/support/tolerance.hpp"
 
 using namespace ice;

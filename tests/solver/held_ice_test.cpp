@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "common/base/units.hpp"
-#include "solver/run/balance.hpp"
+#include "solver/run/measure_imbalance.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/support/tolerance.hpp"
 

@@ -2,11 +2,10 @@
 // Members of an ensemble: small random offsets that depend on seed and floe alone.
 //
 // Tolerances: 1e-15 is rounding of a rotation's entries, of the order of one.
-#include "solver/scene/jitter.hpp"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "solver/scene/apply_jitter.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/support/tolerance.hpp"
 

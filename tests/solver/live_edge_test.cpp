@@ -16,7 +16,7 @@
 #include "solver/record/recorder.hpp"
 #include "solver/record/solid_overlap.hpp"
 #include "solver/run/run.hpp"
-#include "solver/scene/added_mass_of_floes.hpp"
+#include "solver/scene/set_added_mass.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/compare_runs.hpp"
 #include "tests/support/edge_checks.hpp"

@@ -2,12 +2,11 @@
 // Ship, ice and travel in a few numbers.
 //
 // Tolerances: 1e-12 m is rounding of the bisection for a height.
-#include "solver/record/particulars.hpp"
-
 #include <catch2/catch.hpp>
 #include <numbers>
 
 #include "common/base/units.hpp"
+#include "solver/record/measure_particulars.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/support/tolerance.hpp"
 

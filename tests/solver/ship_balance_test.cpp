@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/run/balance.hpp"
+#include "solver/run/measure_imbalance.hpp"
 #include "tests/support/ships_in_ice.hpp"
 #include "tests/support/tolerance.hpp"
 

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "solver/run/balance.hpp"
+#include "solver/run/measure_imbalance.hpp"
 #include "tests/support/ships_in_ice.hpp"
 #include "tests/support/tolerance.hpp"
 

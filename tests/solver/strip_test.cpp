@@ -11,7 +11,7 @@
 
 #include "common/base/units.hpp"
 #include "solver/bending/breaking_load.hpp"
-#include "solver/run/balance.hpp"
+#include "solver/run/measure_imbalance.hpp"
 #include "tests/support/make_strips.hpp"
 #include "tests/support/tolerance.hpp"
 

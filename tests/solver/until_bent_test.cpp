@@ -13,7 +13,7 @@
 #include "common/base/parallel.hpp"
 #include "common/base/units.hpp"
 #include "solver/record/measure_step.hpp"
-#include "solver/run/balance.hpp"
+#include "solver/run/measure_imbalance.hpp"
 #include "solver/run/run.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/compare_runs.hpp"

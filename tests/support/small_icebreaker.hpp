@@ -2,7 +2,7 @@
 /// A small icebreaker that goes into a sheet of level ice.
 #pragma once
 
-#include "solver/scene/added_mass_of_floes.hpp"
+#include "solver/scene/set_added_mass.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/edge_checks.hpp"
 #include "tests/support/make_filled_sets.hpp"

@@ -2,7 +2,7 @@
 // What no step may create or lose: momentum, angular momentum, energy.
 #include <catch2/catch.hpp>
 
-#include "solver/run/balance.hpp"
+#include "solver/run/measure_imbalance.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/validation/paper_case.hpp"
 #include "tests/validation/table.hpp"

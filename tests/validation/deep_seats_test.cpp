@@ -9,8 +9,8 @@
 #include <random>
 
 #include "solver/narrow/find_contacts.hpp"
+#include "solver/narrow/find_polygon.hpp"
 #include "solver/narrow/separating_axis.hpp"
-#include "solver/narrow/solid_contacts.hpp"
 #include "solver/record/solid_overlap.hpp"
 #include "tests/support/make_angle_world.hpp"
 #include "tests/support/make_filled_sets.hpp"
@@ -87,7 +87,7 @@ TEST_CASE("convex solids have a contact as deep as their separating axis says, i
         double least = 0.0;
         for (const Contact& c : contacts_of(w)) least = std::min(least, c.gap);
         CAPTURE(k, depth, least);
-        // the slack of solid_contacts.hpp; 1e-9 m is rounding
+        // the slack of find_polygon.hpp; 1e-9 m is rounding
         CHECK(-least >= depth - 0.02 * kRadius - tolerance(1e-9));
         ++(depth < kRadius ? shallow : deep);
     }

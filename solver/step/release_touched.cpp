@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/step/release_floes.hpp"
+#include "solver/step/release_touched.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

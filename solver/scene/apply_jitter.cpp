@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/scene/jitter.hpp"
+#include "solver/scene/apply_jitter.hpp"
 
 #include "common/base/counter_random.hpp"
 

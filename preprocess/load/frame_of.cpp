@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/load/scene_frame.hpp"
+#include "preprocess/load/frame_of.hpp"
 
 #include <assimp/commonMetaData.h>
 #include <assimp/scene.h>

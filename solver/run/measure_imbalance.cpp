@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/run/balance.hpp"
+#include "solver/run/measure_imbalance.hpp"
 
 #include <fmt/format.h>
 

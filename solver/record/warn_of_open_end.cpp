@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/record/open_end.hpp"
+#include "solver/record/warn_of_open_end.hpp"
 
 #include <fmt/format.h>
 

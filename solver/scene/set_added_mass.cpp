@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/scene/added_mass_of_floes.hpp"
+#include "solver/scene/set_added_mass.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "postprocess/read/run_folder.hpp"
+#include "postprocess/read/read_run_folder.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/field/prism.hpp"
+#include "preprocess/field/make_prism.hpp"
 
 #include <fmt/format.h>
 

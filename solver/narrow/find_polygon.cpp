@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/narrow/solid_contacts.hpp"
+#include "solver/narrow/find_polygon.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/load/cut_off.hpp"
+#include "preprocess/load/looks_cut_off.hpp"
 
 #include <fmt/format.h>
 

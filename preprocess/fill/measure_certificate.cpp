@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/fill/certificate.hpp"
+#include "preprocess/fill/measure_certificate.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -220,8 +220,9 @@ void measure_cover(const SurfaceTree& tree, const SphereSet& set, const SphereFi
 
 }  // namespace
 
-void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vector<Sight>& sights,
-             bool half, const SphereSet& set, SpheresReport& report) {
+void measure_certificate(const SurfaceTree& tree, const SphereFinder& finder,
+                         const std::vector<Sight>& sights, bool half, const SphereSet& set,
+                         SpheresReport& report) {
     report.protrusion_max = measure_protrusion(tree, set, half);
     measure_cover(tree, set, finder, sights, survey_size(set, half), report);
     // the histograms need their ends first

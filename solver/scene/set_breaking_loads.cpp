@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/scene/breaking_loads.hpp"
+#include "solver/scene/set_breaking_loads.hpp"
 
 #include <algorithm>
 #include <limits>

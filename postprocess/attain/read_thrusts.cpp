@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "postprocess/attain/thrust.hpp"
+#include "postprocess/attain/read_thrusts.hpp"
 
 #include <fmt/format.h>
 

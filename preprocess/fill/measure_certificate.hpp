@@ -26,7 +26,8 @@ namespace ice {
 /// - gaps in the ice belt, where report.belt is given.
 ///
 /// @param sights  of survey_surface, one per sample; @param half  as there
-void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vector<Sight>& sights,
-             bool half, const SphereSet& set, SpheresReport& report);
+void measure_certificate(const SurfaceTree& tree, const SphereFinder& finder,
+                         const std::vector<Sight>& sights, bool half, const SphereSet& set,
+                         SpheresReport& report);
 
 }  // namespace ice

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/record/particulars.hpp"
+#include "solver/record/measure_particulars.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/record/trend_warning.hpp"
+#include "solver/record/warn_of_trend.hpp"
 
 #include <fmt/format.h>
 
