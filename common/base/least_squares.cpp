@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/assert.hpp"
 #include "common/base/uncertainty.hpp"
 
 namespace ice {
 
 LeastSquares solve_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+    ICE_ASSERT(a.rows() > 0);
     LeastSquares out;
     // QR, not the normal equations, which square the condition number of the columns.
     out.x = a.colPivHouseholderQr().solve(b);

@@ -10,6 +10,8 @@
 #include <mutex>
 #include <vector>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 /// Number of threads used by parallel_for from now on; 0 leaves OpenMP's own choice.
@@ -32,7 +34,11 @@ public:
         if (slots_.size() < threads) slots_.resize(threads);
     }
     /// The calling thread's. @pre prepare() since the last set_thread_count()
-    T& own() { return slots_[static_cast<std::size_t>(omp_get_thread_num())].value; }
+    T& own() {
+        const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+        ICE_ASSERT(thread < slots_.size());
+        return slots_[thread].value;
+    }
     /// Calls visit(T&) for every thread's.
     template <class Visit>
     void for_each(const Visit& visit) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/base/assert.hpp"
 #include "common/geometry/closest_on_triangle.hpp"
 #include "common/geometry/edge_table.hpp"
 
@@ -24,6 +25,7 @@ double corner_angle(const Vec3& at, const Vec3& b, const Vec3& c) {
 }  // namespace
 
 SurfaceTree::SurfaceTree(const TriangleMesh& mesh) : mesh_(mesh) {
+    ICE_ASSERT(!mesh.triangles.empty());
     const auto count = static_cast<std::int32_t>(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         centers_.push_back((mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0);

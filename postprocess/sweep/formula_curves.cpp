@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/assert.hpp"
+
 namespace ice::sweep {
 
 namespace {
@@ -44,6 +46,7 @@ std::vector<FormulaCurve> comparable_curves(const std::vector<Curve>& curves) {
 }
 
 std::vector<FormulaCurve> component_curves(const Curve& curve) {
+    ICE_ASSERT(!curve.points.empty());
     std::vector<FormulaCurve> out;
     const bool level = curve.points.front().level_ice;
     for (const FormulaValue& f : curve.points.front().formulas)

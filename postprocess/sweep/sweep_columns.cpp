@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/assert.hpp"
 #include "postprocess/sweep/formula_curves.hpp"
 #include "postprocess/sweep/key_names.hpp"
 #include "postprocess/sweep/share_work.hpp"
@@ -88,6 +89,7 @@ std::vector<Column> force_columns(const std::vector<Point>& points, const report
 
 std::vector<Column> work_columns(const Sweep& sweep, const std::vector<Point>& points,
                                  const report::ForceUnit& unit) {
+    ICE_ASSERT(!points.empty());
     std::vector<Column> columns;
     // all points have the same entries, in the same order
     for (const auto& [title, force] : share_work(sweep, points.front()))

@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 
+#include "common/base/assert.hpp"
 #include "postprocess/sweep/read_sweep.hpp"
 
 namespace ice::sweep {
@@ -68,7 +69,10 @@ struct Point {
 
     const Estimate& part(Part p) const { return parts[static_cast<std::size_t>(p)]; }
     /// Value of x. @pre the sweep has an x and the point a number there
-    double x(const Sweep& sweep) const { return at.at(sweep.x).number.value(); }
+    double x(const Sweep& sweep) const {
+        ICE_ASSERT(at.contains(sweep.x) && at.at(sweep.x).number.has_value());
+        return at.at(sweep.x).number.value();
+    }
     /// Value of a formula's part [N], or NaN.
     double formula(const std::string& name, const std::string& part) const;
 };

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/assert.hpp"
 #include "postprocess/views/svg.hpp"
 
 namespace ice::views {
@@ -13,7 +14,10 @@ struct Axis {
     double low = 0.0, high = 1.0, from = 0.0, to = 1.0;  ///< in the axis' unit; [px]
     bool logarithmic = false;  ///< values are exponents: ticks at whole ones, as powers of ten
     /// Place of a value [px]. @pre low and high differ
-    double pixel(double value) const { return from + (value - low) / (high - low) * (to - from); }
+    double pixel(double value) const {
+        ICE_ASSERT(low != high);
+        return from + (value - low) / (high - low) * (to - from);
+    }
 };
 
 /// Round values (1, 2, 5 times a power of ten) inside [low, high], at most about `most` of them.

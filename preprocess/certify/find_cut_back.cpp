@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 namespace {
@@ -114,6 +116,8 @@ void add_deepest(const char* part, const std::vector<double>& all, const Levels&
 }  // namespace
 
 void find_cut_back(const SphereSet& set, SpheresReport& report) {
+    ICE_ASSERT(set.surface_count <= set.centers.size() && set.radii.size() == set.centers.size() &&
+               !set.mesh.triangles.empty());
     report.cut_back.clear();
     if (set.dimension != 3) return;
     Eigen::AlignedBox3d box;

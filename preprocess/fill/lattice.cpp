@@ -3,6 +3,7 @@
 
 #include <bit>
 
+#include "common/base/assert.hpp"
 #include "common/base/parallel.hpp"
 #include "preprocess/fill/clear_near.hpp"
 
@@ -100,6 +101,7 @@ void expand(const LatticeFill& fill, std::span<Vec3> out) {
 }
 
 std::vector<std::uint8_t> outer_spheres(const LatticeFill& fill, int dimension) {
+    ICE_ASSERT(fill.frame.kind == LatticeKind::cubic);
     const LatticeFrame& frame = fill.frame;
     // beyond the frame there is no point
     const auto is_set = [&](std::int64_t i, std::int64_t j, std::int64_t k) {

@@ -17,8 +17,8 @@ constexpr double kLargeTurn = 0.5;
 // larger value gives the same.
 constexpr double kAnywhere = 1e9;
 
-// The angle of a turn is at most this many times |q - p| [-]: 2 for small turns and at most 1 % more
-// below kLargeTurn, as |q - p| is 2 sin(angle / 4) for the nearer of +-p. Larger renews lists
+// The angle of a turn is at most this many times |q - p| [-]: 2 for small turns and at most 1 %
+// more below kLargeTurn, as |q - p| is 2 sin(angle / 4) for the nearer of +-p. Larger renews lists
 // earlier; with a smaller one it is no bound, and contacts could be missed.
 constexpr double kTurnOfChord = 2.02;
 

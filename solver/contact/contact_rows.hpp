@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/assert.hpp"
 #include "solver/contact/constraints.hpp"
 
 namespace ice {
@@ -103,6 +104,7 @@ public:
     void begin_stage(const Bodies& bodies, const std::vector<Constraint>& constraints,
                      double Constraint::*normal, Vec3 Constraint::*tangent,
                      const TargetOf& target_of) {
+        ICE_ASSERT(which_.empty() || which_.back() < std::ssize(constraints));
         load_motions(bodies);
         for (std::size_t n = 0; n < which_.size(); ++n) {
             const Constraint& c = constraints[which_[n]];

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 namespace {
@@ -25,6 +27,7 @@ SourcePanel make_panel(const Vec3& a, const Vec3& b, const Vec3& c) {
     out.corner = {a, b, c};
     const Vec3 twice = (b - a).cross(c - a);
     out.area = 0.5 * twice.norm();
+    ICE_ASSERT(out.area > 0.0);
     out.normal = twice.normalized();
     out.centre = (a + b + c) / 3.0;
     double radius = 0.0;

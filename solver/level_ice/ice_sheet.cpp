@@ -6,6 +6,8 @@
 #include <iterator>
 #include <polyclipping/clipper.hpp>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 namespace {
@@ -16,6 +18,9 @@ namespace cl = ClipperLib;
 // without rounding. Coarser moves corners more at each cut; lines finer by more than eight times
 // would round coordinates of 1e6 m.
 constexpr double kLattice = 0x1p-30;
+// Largest coordinate of a sheet [m]: in the lattice it is a double without rounding. A larger value
+// lets coordinates be rounded.
+constexpr double kFarthest = 1e6;
 // A part this many times as large as the cracked region is a sheet by itself [-], as the other side
 // of a channel. Smaller keeps pieces in the sheet that float free; larger turns half sheets into
 // one floe.
@@ -121,6 +126,8 @@ bool is_too_small(const Loop& loop, double smallest) {
 }  // namespace
 
 IceSheet::IceSheet(const Eigen::AlignedBox2d& extent, double smallest) : smallest_(smallest) {
+    ICE_ASSERT(!extent.isEmpty() && extent.min().cwiseAbs().maxCoeff() <= kFarthest &&
+               extent.max().cwiseAbs().maxCoeff() <= kFarthest);
     const Vec2 &a = extent.min(), &b = extent.max();
     // Rounded to the lattice at once: the area at the start is that of the polygon that cracks will
     // cut.

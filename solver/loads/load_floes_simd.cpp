@@ -2,6 +2,7 @@
 // Loads on floes of one shape, as many at a time as the machine has lanes, compiled once per
 // instruction set. The mathematics is in load_floes_reference.cpp, drag.cpp and hydrostatics.cpp.
 // Mul then Add, not MulAdd: a fused product would differ from it.
+#include "common/base/assert.hpp"
 #include "solver/loads/load_floes.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -59,6 +60,7 @@ struct FlowLoads {
 };
 HWY_INLINE FlowLoads LoadsInFlow(const Scene& scene, const Case& p, const Afloat& floes,
                                  const Matrices& inverse_inertia) {
+    ICE_ASSERT(scene.water.flows());
     const FlowNear near(floes, scene.water);
     FlowLoads out{DragInFlow(floes, p, scene.water, near, inverse_inertia), {Zero(), Zero()}};
     if (!scene.water.presses) return out;

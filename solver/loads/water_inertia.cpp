@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/loads/water_inertia.hpp"
 
+#include "common/base/assert.hpp"
 #include "common/math/ordered_products.hpp"
 
 namespace ice {
@@ -40,6 +41,7 @@ void add(const Scene& scene, const Case& p, std::size_t i, FloeLoad& load) {
 
 void add_water_inertia(const Scene& scene, const Case& parameters,
                        std::span<const std::int32_t> floes, std::span<FloeLoad> loads) {
+    ICE_ASSERT(scene.bodies.have_added_mass() && loads.size() == floes.size());
     for (std::size_t k = 0; k < floes.size(); ++k)
         add(scene, parameters, static_cast<std::size_t>(floes[k]), loads[k]);
 }

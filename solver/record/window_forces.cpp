@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "common/base/assert.hpp"
 #include "common/formats/checkpoint_file.hpp"
@@ -78,7 +79,14 @@ void WindowForces::count(double force) {
         classes_.insert(place, {number, 1});
 }
 
+std::int64_t WindowForces::added() const {
+    return std::accumulate(classes_.begin(), classes_.end(),
+                           static_cast<std::int64_t>(forces_.size()),
+                           [](std::int64_t sum, const Class& c) { return sum + c.count; });
+}
+
 double WindowForces::quantile(double share, std::int64_t windows) const {
+    ICE_ASSERT(windows >= added());
     if (classes_.empty()) {
         std::vector<double> forces = forces_;
         // windows without a load are not stored

@@ -40,6 +40,7 @@ private:
         std::int32_t number, count;
     };
     void count(double force);
+    std::int64_t added() const;  // how many
 
     std::vector<double> forces_;        // [N], until there are classes
     std::vector<Class> classes_;        // by number

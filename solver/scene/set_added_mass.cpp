@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "common/base/assert.hpp"
 #include "common/geometry/mass_properties.hpp"
 #include "common/math/ordered_products.hpp"
 
@@ -43,6 +44,7 @@ void add_water(Scene& scene, std::size_t body, double water_density) {
 }
 
 void set_added_mass(Scene& scene, const Case& parameters) {
+    ICE_ASSERT(scene.dimension == 3);
     Bodies& b = scene.bodies;
     std::vector<Vec3> velocity = b.velocity, spin = b.angular_velocity;
     std::vector<bool> done(b.inertias.size(), false);

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 // An edge by its two vertices, the lower number first: both of its triangles find the same one.
@@ -16,6 +18,7 @@ MeshEdges find_edges(const TriangleMesh& mesh) {
         // an edge has two triangles: the second one finds the middle of the first
         for (std::size_t k = 0; k < 3; ++k) {
             const std::int32_t a = corners[k], b = corners[(k + 1) % 3];
+            ICE_ASSERT(a >= 0 && a < std::ssize(mesh.vertices));
             const auto [edge, fresh] =
                 known.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(out.middle.size()));
             if (fresh)

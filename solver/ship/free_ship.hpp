@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "common/base/assert.hpp"
 #include "solver/contact/overlaps.hpp"
 #include "solver/ship/ship_loads.hpp"
 
@@ -46,7 +47,10 @@ public:
     void place(Scene& scene, double height, const ShipAngles& angles);
     bool is_free() const { return rig_.has_value(); }
     /// @pre it is free
-    const ShipRig& rig() const { return *rig_; }
+    const ShipRig& rig() const {
+        ICE_ASSERT(is_free());
+        return *rig_;
+    }
 
     /// Beginning of a step: prescribed velocities, and the ship's response to impulses in it.
     /// @param time  at the start of the step [s]

@@ -2,3 +2,4 @@
 #include "preprocess/measure/signed_distance.hpp"
 #include <CGAL/Surface_mesh.h>
 #include <hdf5.h>
+#include <openssl/evp.h>
