@@ -111,7 +111,7 @@ TEST_CASE("a sweep's chart has the band of its formulas, its CSV a column for ea
     CHECK(author_of("our ship") == "our ship");
     const std::string csv = point_csv(sweep, points);
     CHECK_THAT(csv, Catch::Contains(",jeong_2010_buoyancy_clearing_N,") &&
-                        Catch::Contains(",600,200,80,280,until-hull-contact\r\n"));
+                        Catch::Contains(",600,200,80,280,until-hull-contact,\r\n"));
     const std::string chart = make_sweep_curve(sweep);
     CHECK_THAT(chart, Catch::Contains(">formulas</text>") && Catch::Contains(">Jeong</text>"));
     const std::string page = make_sweep_page(sweep, folder / "sweep.html");
