@@ -138,6 +138,10 @@ ice::Summary run_or_tell(ice::World& world, const ice::RunOptions& options, cons
     }
 }
 
+void append(const std::vector<ice::Warning>& more, std::vector<ice::Warning>& warnings) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
 void say_warnings(const std::vector<ice::Warning>& warnings) {
     for (const ice::Warning& warning : warnings) ice::say_warning(ice::with_verdict(warning));
 }
@@ -151,13 +155,11 @@ void say_forecasts(const std::vector<ice::Warning>& warnings) {
 }
 
 // All that --check does.
-int describe(const ice::Options& o, ice::World& world, const std::vector<ice::Warning>& warnings) {
-    say_forecasts(warnings);
+int describe(const ice::Options& o, ice::World& world, bool good) {
     const std::string ice = world.edge.has_sheet()
                                 ? "level ice"
                                 : fmt::format("{} floes", world.scene.bodies.size() - 1);
-    ice::say(fmt::format("{}: {}, {}\n{}", o.case_file,
-                         warnings.empty() ? "good" : "runs, with warnings", ice,
+    ice::say(fmt::format("{}: {}, {}\n{}", o.case_file, good ? "good" : "runs, with warnings", ice,
                          ice::describe_case(world)));
     if (!o.picture.empty()) ice::draw_start(world, o.picture);
     ice::say(ice::describe_cost(world));  // takes some steps, so the picture is drawn before
@@ -165,21 +167,20 @@ int describe(const ice::Options& o, ice::World& world, const std::vector<ice::Wa
     return 0;
 }
 
-// Warnings of inputs, bodies and water. A number in a wrong unit may be the cause of an error, and
-// is named before it.
+// Warnings of inputs. A number in a wrong unit may be the cause of an error, or of a scene that
+// takes hours to build: it is named before.
+std::vector<ice::Warning> look_at_inputs(const ice::Case& parameters) {
+    std::vector<ice::Warning> warnings = ice::check_inputs(parameters);
+    say_forecasts(warnings);
+    return warnings;
+}
+
+// Warnings of bodies and water.
 std::vector<ice::Warning> look_at_start(ice::World& world, const ice::Options& o, bool resumed) {
-    std::vector<ice::Warning> warnings = ice::check_inputs(world.parameters);
-    const auto add = [&](const std::vector<ice::Warning>& more) {
-        warnings.insert(warnings.end(), more.begin(), more.end());
-    };
-    try {
-        // of a resumed run the start is long past
-        if (!resumed) add(ice::check_start(world, o.allow_overlap));
-    } catch (const ice::Error&) {
-        say_forecasts(warnings);
-        throw;
-    }
-    add(ice::check_water(world.parameters, world.scene));
+    std::vector<ice::Warning> warnings;
+    // of a resumed run the start is long past
+    if (!resumed) warnings = ice::check_start(world, o.allow_overlap);
+    append(ice::check_water(world.parameters, world.scene), warnings);
     return warnings;
 }
 
@@ -191,18 +192,23 @@ int run_case(const ice::Options& o, const std::string& command_line) {
     ice::set_instruction_set(o.simd);
     const ice::Case parameters = ice::read_case(o.case_file, o.overrides);
     ice::require_open_files(parameters);
+    const std::vector<ice::Warning> inputs = look_at_inputs(parameters);
     ice::World world = ice::build_world(parameters);
     const std::vector<ice::Warning> course = ice::check_course(world);  // before the ice moves
     std::optional<ice::SavedRun> saved;
     // onto the scene that the case builds: a checkpoint holds state, no shapes
     if (!o.restart.empty()) saved.emplace(ice::read_checkpoint(o.restart, world));
     ice::SavedRun* going_on = saved ? &*saved : nullptr;
-    const std::vector<ice::Warning> of_start = look_at_start(world, o, saved.has_value());
-    std::vector<ice::Warning> warnings = of_start;
-    warnings.insert(warnings.end(), course.begin(), course.end());
+    std::vector<ice::Warning> warnings = look_at_start(world, o, saved.has_value());
+    std::vector<ice::Warning> of_start = inputs;  // for the summary
+    append(warnings, of_start);
+    append(course, warnings);
     // said now, while the case can be changed; at the end the summary has the verdict
     if (const auto few = ice::warn_of_short_averages(world)) warnings.push_back(*few);
-    if (o.check) return describe(o, world, warnings);
+    if (o.check) {
+        say_forecasts(warnings);
+        return describe(o, world, warnings.empty() && inputs.empty());
+    }
     refuse_to_shorten(o, world);
     const ice::RunFolder claimed(
         folder_of_run(o), may_exist(o, folder_of_run(o)),
@@ -212,6 +218,7 @@ int run_case(const ice::Options& o, const std::string& command_line) {
     ice::log_to_file(folder / "run.log", going_on != nullptr);
     ice::say(fmt::format("icesolve {} ({}): {}", ice::version(), ice::git_commit(), command_line));
     say_forecasts(warnings);
+    append(inputs, warnings);  // said before the scene was built
     ice::catch_interrupts();
     ice::Progress progress("icesolve", o.messages.quiet);
     const ice::Timer timer;

@@ -13,7 +13,9 @@ namespace ice {
 /// unit of x is the table's. Rows with equal x are a step, whose first value counts at x itself.
 /// @pre the table is not empty and its x rise
 inline double interpolate(const std::vector<std::pair<double, double>>& table, double x) {
-    ICE_ASSERT(!table.empty() && std::is_sorted(table.begin(), table.end()));
+    ICE_ASSERT(!table.empty());
+    ICE_ASSERT(std::is_sorted(table.begin(), table.end(),
+                              [](const auto& l, const auto& r) { return l.first < r.first; }));
     if (x <= table.front().first) return table.front().second;
     if (x > table.back().first) return table.back().second;
     const auto after = std::lower_bound(table.begin(), table.end(), x,

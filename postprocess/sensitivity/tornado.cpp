@@ -95,6 +95,10 @@ private:
             left = std::min(left, std::max(c.resistance.mean - half, low - 0.5 * span));
             right = std::max(right, std::min(c.resistance.mean + half, high + 0.5 * span));
         });
+        if (!(right > left)) {  // no force in any run
+            left -= unit_.newtons;
+            right += unit_.newtons;
+        }
         // labels are outside their bars: the longest, as a share of the plot
         std::size_t longest = 1;
         each([&](const Change& c) { longest = std::max(longest, c.label.size()); });

@@ -10,7 +10,7 @@
 namespace ice::sweep {
 
 /// "2 of 4 completed runs have warnings that affect their mean, by up to 37 %"; "" where no run has
-/// one.
+/// one. A warning whose effect was not measured does not count.
 std::string affected_line(const Sweep& sweep);
 
 /// HTML: that line, which opens to a list of these warnings by run; "" where there is none. Runs

@@ -13,15 +13,16 @@ struct CapLimits {
     /// of the mass.
     static constexpr double kDoubt = 0.005;
     /// Of the surface, the largest cap in a file that seems cut off: a larger one passes files that
-    /// end in the middle of a hull, a smaller one refuses whole files with a hole.
+    /// end in the middle of a hull, a smaller one refuses whole files with an
+    /// opening.
     static constexpr double kSuspect = 0.005;
     /// Of the surface, all continued faces together: a larger one passes hulls without a side, a
     /// smaller one refuses barges without a bottom plate.
     static constexpr double kContinued = 0.2;
     /// Of the surface, all small caps together: a larger one lets many small openings hide a large
-    /// loss, a smaller one refuses meshes with many holes that have no volume.
+    /// loss, a smaller one refuses meshes with many openings without volume.
     static constexpr double kLoose = 0.05;
-    /// Of the surface, the largest cap of guessed form at an end: a larger one passes hulls without
+    /// Of the surface, the largest cap of guessed shape at an end: a larger one passes hulls without
     /// a stem, a smaller one refuses those with a pinhole there.
     static constexpr double kEnd = 0.0005;
 

@@ -143,7 +143,8 @@ void plan_course(const World& w, Draft& draft) {
     draft.average_from = rounded(draft.duration - averaged / draft.speed, 3);
     draft.lengths = draft.speed * draft.duration / ship.length;
     draft.averaged_lengths = draft.speed * (draft.duration - draft.average_from) / ship.length;
-    draft.settled_lengths = (draft.speed * draft.average_from - course.clearance) / ship.length;
+    draft.settled_lengths =
+        std::max(0.0, draft.speed * draft.average_from - course.clearance) / ship.length;
 }
 
 // Level ice that begins where the field does, long and broad enough for the same travel.

@@ -28,6 +28,10 @@ constexpr double kAhead = 2.0, kAstern = 0.5;
 // Share of half a disc that a piece has, at least [-], when slots are counted. Less makes more
 // slots, which take memory only; with more, pieces leave the scene early for want of a slot.
 constexpr double kCover = 0.25;
+
+// Slots from which a sheet is refused [-], as many as a group of floes may have. A larger bound lets
+// a modulus in a wrong unit fill the memory; a smaller one refuses long runs in thin ice.
+constexpr double kMostSlots = 1e5;
 // Area of half a disc over its radius squared [-], pi / 2 rounded: the number of slots depends on
 // these digits.
 constexpr double kHalfDisc = 1.57;
@@ -82,6 +86,13 @@ void LiveEdge::add_slots(Scene& scene, const Case& p) {
     const Vec2 size = reach(scene).sizes();
     const double pieces = size.x() * size.y() / (kCover * kHalfDisc * radius_ * radius_);
     const double tiles = kTilesAlong * size.x() / radius_ + kTilesAcross * size.y() / radius_;
+    if (pieces + tiles > kMostSlots)
+        throw bad_input(
+            p.file.string() + ": level_ice.extent",
+            fmt::format("up to {:.2g} pieces at a time would break off near the hull, with cracks "
+                        "{:.3g} m from the edge; {:g} are the most",
+                        pieces + tiles, radius_, kMostSlots),
+            "check bending.elastic_modulus and level_ice.thickness, or narrow level_ice.extent");
     const double half = 0.5 * thickness_;
     const Loop square = loop_of(Box(Vec2(-half, -half), Vec2(half, half)));
     if (std::optional<Shape> shape = shape_of(square, prism_spec(p), is_strip_))

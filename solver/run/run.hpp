@@ -21,7 +21,7 @@ struct RunOptions {
     /// checkpoint_wall_seconds until the run ends
     double checkpoint_every = 0.0;
     SavedRun* saved = nullptr;                 ///< resume this run; its recorder is taken over
-    std::vector<Warning> start_warnings = {};  ///< of check_start(), for the summary
+    std::vector<Warning> start_warnings = {};  ///< of inputs, start and water
     bool verify =
         false;  ///< every step must balance (measure_imbalance.hpp); the worst is in the summary
     /// Called after every step with (fraction done [-], world); false ends the run as

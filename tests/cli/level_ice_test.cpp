@@ -42,6 +42,19 @@ void prepare_strip(const Workshop& w) {
 
 }  // namespace
 
+TEST_CASE("level ice whose modulus is in a wrong unit is refused with both reasons",
+          "[cli][level_ice]") {
+    const Workshop w;
+    prepare(w);
+    const Result r = w.run("icesolve case.cfg --check --set bending.elastic_modulus=5");
+    CHECK(r.code == 2);
+    CHECK_THAT(r.err, Catch::Contains("warning: bending.elastic_modulus = 5 Pa") &&
+                          Catch::Contains("write \"5 GPa\""));
+    CHECK_THAT(r.err, Catch::Contains("level_ice.extent: up to ") &&
+                          Catch::Contains("check bending.elastic_modulus"));
+    CHECK(r.err.find("warning:") < r.err.find("error:"));
+}
+
 TEST_CASE("level ice breaks where it is loaded, and another seed is other ice",
           "[cli][level_ice]") {
     const Workshop w;
