@@ -22,8 +22,8 @@ struct CapLimits {
     /// Of the surface, all small caps together: a larger one lets many small openings hide a large
     /// loss, a smaller one refuses meshes with many openings without volume.
     static constexpr double kLoose = 0.05;
-    /// Of the surface, the largest cap of guessed shape at an end: a larger one passes hulls without
-    /// a stem, a smaller one refuses those with a pinhole there.
+    /// Of the surface, the largest cap of guessed shape at an end: a larger one passes hulls
+    /// without a stem, a smaller one refuses those with a pinhole there.
     static constexpr double kEnd = 0.0005;
 
     /// Area of a cap that continues no neighbour, over the cap's [-], up to which it continues

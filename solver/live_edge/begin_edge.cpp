@@ -29,8 +29,8 @@ constexpr double kAhead = 2.0, kAstern = 0.5;
 // slots, which take memory only; with more, pieces leave the scene early for want of a slot.
 constexpr double kCover = 0.25;
 
-// Slots from which a sheet is refused [-], as many as a group of floes may have. A larger bound lets
-// a modulus in a wrong unit fill the memory; a smaller one refuses long runs in thin ice.
+// Slots above which a sheet is refused [-], as many as a group of floes may have. A larger bound
+// lets a modulus in a wrong unit fill the memory; a smaller one refuses long runs in thin ice.
 constexpr double kMostSlots = 1e5;
 // Area of half a disc over its radius squared [-], pi / 2 rounded: the number of slots depends on
 // these digits.
