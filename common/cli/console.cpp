@@ -30,7 +30,7 @@ namespace ice {
 
 namespace {
 
-// What the process knows of its terminal.
+// State of the process that its signal handlers read or write, and of its terminal.
 struct ConsoleState {
     volatile std::sig_atomic_t interrupted = 0;
     std::atomic<std::int64_t> interrupted_at = 0;  // [ns]

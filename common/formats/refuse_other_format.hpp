@@ -12,7 +12,7 @@ namespace ice {
 /// Files that state no format of the project, or the wanted one, pass.
 /// @param wanted  its attribute `format`: "icesolve-spheres"
 /// @param kind    in words: "a sphere set"
-/// @throws Error (exit code 2) that names both kinds, and what the file is for
+/// @throws Error (exit code 2) that names both kinds and the use of the file
 void refuse_other_format(const std::filesystem::path& path, const Hdf5File& file,
                          const std::string& wanted, const std::string& kind);
 
