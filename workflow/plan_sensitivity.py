@@ -195,11 +195,13 @@ class StudyPlanner(Planner):
         return ranges
 
     def members(self):
-        """Settings of each seed, those of icesolve --seeds: offsets, or a random field, anew."""
+        """Settings of each seed, those of icesolve --seeds: offsets, or a random field, anew.
+
+        In level ice the seed itself changes the pieces' sizes."""
         members = [{SEED: k} for k in range(1, self.get("seeds", int, SEEDS) + 1)]
         if self.specification().get("pattern") in RANDOM_FIELDS:
             return [{**member, FIELD_SEED: member[SEED]} for member in members]
-        if not self.base_value("simulation.jitter"):
+        if "level_ice" not in self.case_keys and not self.base_value("simulation.jitter"):
             self.constant["simulation.jitter"] = float(f"{JITTER * self.ice_radius():.6g}")
         return members
 

@@ -246,12 +246,14 @@ class Planner:
         return tied
 
     def check_seeds(self, axes, constant):
-        """Seeds without jitter would be the same run several times."""
-        jitter = axes.get("simulation.jitter", constant.get(
-            "simulation.jitter", self.case_keys.get("simulation", {}).get("jitter", 0)))
-        if len(axes.get(SEED, [])) > 1 and jitter == 0:
-            self.fail("all seeds give the same run, because simulation.jitter is 0",
-                      'write e.g. "simulation.jitter" = 0.01 below [set]')
+        """Seeds that change nothing would be the same run several times."""
+        # of level ice they change the pieces' sizes; all other ice is moved by the jitter
+        key, default = (("level_ice.scatter", 0.2) if "level_ice" in self.case_keys else
+                        ("simulation.jitter", 0))
+        keys = {**flatten(self.case_keys), **constant, **axes}
+        if len(axes.get(SEED, [])) > 1 and keys.get(key, default) == 0:
+            self.fail(f"all seeds give the same run, because {key} is 0",
+                      f'write e.g. "{key}" = {default or 0.01} below [set]')
 
     def plan(self):
         axes = self.read_axes()

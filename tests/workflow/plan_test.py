@@ -49,6 +49,11 @@ with tempfile.TemporaryDirectory() as folder:
     assert p.inputs[0].options == ["--slice", "y=0", "-r", "0.1", "-s", "0.05", "--mode", "surface"]
     assert plan(good.replace("hull.speed", '"hull.speed"')).runs == p.runs
 
+    # the seeds of level ice need no jitter: they change the sizes of its pieces
+    sheet = f'case = "{SOURCE}/cases/level-ice-icebreaker/case.cfg"\n[axes]\nseeds = 2\n'
+    assert len(plan(sheet).runs) == 2
+    expect_fault(f"{sheet}[set]\nlevel_ice.scatter = 0\n", "level_ice.scatter is 0")
+
     # the plan that icepost reads is TOML and is not written twice
     assert not os.path.exists(f"{folder}/out")  # planning writes nothing
     write_plan(p)
@@ -100,7 +105,7 @@ with tempfile.TemporaryDirectory() as folder:
     expect_fault(good.replace("[0.5, '2 kn']", "[]"), "'hull.speed' is no list")
     expect_fault(good.replace("'2 kn'", "0.5"), "a value twice")
     expect_fault(good.replace("seeds = 3", "seeds = 'a'"), "'seeds' is wrong")
-    expect_fault(good.replace("simulation.jitter = 0.01\n", ""), "jitter is 0")
+    expect_fault(good.replace("simulation.jitter = 0.01\n", ""), "simulation.jitter is 0")
     expect_fault(good.split("[axes]")[0], "'axes' is missing")
     expect_fault(good.split("[axes]")[0] + "[axes]\n", "'axes' is empty")
     expect_fault(good.replace('case = "case/case.cfg"\n', ""), "'case' is missing")

@@ -170,6 +170,10 @@ floes.mean_size = 1.0
     assert [f.options[-1] for f in fields if len(f.options) == 2] == ["seed=1", "seed=2"], fields
     assert not [o for run in p.runs.values() for o in run.overrides if "jitter" in o]
 
+    # each seed gives the pieces of level ice other sizes
+    p = plan(STUDY.replace("case/case.cfg", f"{SOURCE}/cases/level-ice-icebreaker/case.cfg"))
+    assert not [o for run in p.runs.values() for o in run.overrides if "jitter" in o]
+
     expect_fault(STUDY.replace("title", "titel"), "unknown key 'titel'")
     expect_fault(STUDY.replace("case.cfg", "none.cfg"), "not readable")
     expect_fault(STUDY + '[vary]\n"contact.restitutoin" = [0.1]\n', "did you mean")
