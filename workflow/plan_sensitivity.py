@@ -118,10 +118,13 @@ class StudyPlanner(Planner):
             return "never"
         if key == "contact.crushing_pressure" and self.case_value("simulation.dimension") == 2:
             return math.inf
-        defaults = self.defaults("icesolve")
+        floes, defaults = self.case_keys.get("floes", []), self.defaults("icesolve")
         if key.endswith(".hold"):
-            return defaults["floes"][0].get("hold")
-        return None if key.startswith("floes.") else flatten(defaults).get(key)
+            return defaults["floes"][0].get("hold") if floes else None
+        sheet = "level_ice" in self.case_keys
+        bends = sheet or any(group.get("hold") == "until-bent" for group in floes)
+        sections = ["floes.", *([] if sheet else ["level_ice."]), *([] if bends else ["bending."])]
+        return None if key.startswith(tuple(sections)) else flatten(defaults).get(key)
 
     def keys_in_case(self, entry):
         """The range's keys, those of floes for each group that has them and may leave its place."""

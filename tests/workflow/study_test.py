@@ -94,7 +94,8 @@ with tempfile.TemporaryDirectory() as folder:
     assert all(entry["source"] for entry in stored["input"])
     # a slice has no breadth, and the page says so
     left_out = {entry["name"]: entry["why"] for entry in stored["left_out"]}
-    assert set(left_out) == {"concentration", "breadth", "far end of the channel"}, left_out
+    assert set(left_out) == {"concentration", "breadth", "far end of the channel",
+                             "bending factor", "flexural strength", "size of the pieces"}, left_out
     assert stored["run"][0]["input"] == "" and stored["run"][1]["label"] == "0.2 MPa"
     write_plan(p)
     assert tomllib.loads(read(f"{folder}/out/runs.toml")) == stored
@@ -152,6 +153,9 @@ with tempfile.TemporaryDirectory() as folder:
     write(f"{folder}/case/field.toml", BRICK + "edges.breadth = 2.0\nedges.ahead = 0.0\n")
     assert labels(plan(field_study), "far end of the channel") == ["2.0"]
 
+    # ice that is not there to bend has nothing of level ice
+    assert not labels(p, "bending factor") and not labels(p, "size of the pieces")
+
     # loose floes of a field are free by default, which the release rule is varied from
     assert labels(p, "release rule") == ["until-hull-contact", "until-contact"]
 
@@ -170,9 +174,13 @@ floes.mean_size = 1.0
     assert [f.options[-1] for f in fields if len(f.options) == 2] == ["seed=1", "seed=2"], fields
     assert not [o for run in p.runs.values() for o in run.overrides if "jitter" in o]
 
-    # each seed gives the pieces of level ice other sizes
+    # each seed gives the pieces of level ice other sizes; no floes, so no rule that releases them
     p = plan(STUDY.replace("case/case.cfg", f"{SOURCE}/cases/level-ice-icebreaker/case.cfg"))
     assert not [o for run in p.runs.values() for o in run.overrides if "jitter" in o]
+    assert labels(p, "bending factor") == ["0.75", "1.5"]
+    assert labels(p, "flexural strength") == ["375 kPa", "625 kPa"]
+    assert labels(p, "ice's spheres") == ["0.49 m", "0.98 m"]
+    assert not labels(p, "release rule")
 
     expect_fault(STUDY.replace("title", "titel"), "unknown key 'titel'")
     expect_fault(STUDY.replace("case.cfg", "none.cfg"), "not readable")
