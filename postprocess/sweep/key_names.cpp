@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "postprocess/sweep/key_names.hpp"
 
+#include <fmt/format.h>
+
 namespace ice::sweep {
 
 namespace {
@@ -45,7 +47,8 @@ std::string axis_title(const std::string& key) {
 
 std::string short_text(const Setting& setting) {
     if (setting.text.empty()) return "-";
-    if (setting.number) return setting.text;
+    // six digits: a speed of 6 kn is stored as 3.086666666666667 m/s
+    if (setting.number) return fmt::format("{:.6g}", *setting.number);
     // Of a path only the file's name: sets of one study mostly lie in one folder. Without a slash
     // rfind gives npos, and npos + 1 is 0: the whole text.
     return setting.text.substr(setting.text.rfind('/') + 1);

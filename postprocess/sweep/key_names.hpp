@@ -9,7 +9,8 @@ namespace ice::sweep {
 /// no such name is its own title.
 std::string axis_title(const std::string& key);
 
-/// Text of a setting for people: of a path only the file's name, "-" for none.
+/// Text of a setting for people: a number with six digits, of a path only the file's name, "-" for
+/// none.
 std::string short_text(const Setting& setting);
 
 /// Key and value for a legend: "speed 0.5 m/s", "floes.count [20, 9]".

@@ -133,6 +133,16 @@ TEST_CASE("an interval of two runs says so", "[sweep]") {
     CHECK_THAT(make_sweep_curve(sweep), Catch::Contains(">two runs: t = 12.7</text>"));
 }
 
+TEST_CASE("tables show a speed given in knots with six digits, CSV with all", "[sweep]") {
+    const TempFolder folder;
+    const double six_knots = 6.0 * 1852.0 / 3600.0;
+    write_run(folder / "slow", 0.5, 0.1, 1, 500.0);
+    write_run(folder / "fast", six_knots, 0.1, 1, 900.0);
+    const Sweep sweep = read_sweep(folder.path());
+    CHECK_THAT(sweep_markdown(sweep), Catch::Contains("| 3.08667 |"));
+    CHECK_THAT(point_csv(sweep, make_points(sweep)), Catch::Contains(fmt::format("{},", six_knots)));
+}
+
 TEST_CASE("runs in 3D and in 2D share no chart, no table and no column", "[sweep]") {
     const TempFolder folder;
     for (const double speed : {0.5, 1.0})
