@@ -44,8 +44,8 @@ def main():
                     Path(folder) / "checkpoint.h5")
         log = (Path(folder) / "run.log").read_text(encoding="utf8")
     broken, gone = re.findall(r"(\d+) pieces broke off.* (\d+) pieces far astern", log)[-1]
-    print(f"{int(broken) - int(gone)} pieces alive, {options.threads} threads, "
-          "wall s per simulated second:")
+    print(f"{int(broken) - int(gone)} pieces alive, {options.threads} threads:\n")
+    print("| stage | wall s per simulated second |\n|---|---|")
     stages = {name: seconds - before["stage_seconds"][name]
               for name, seconds in after["stage_seconds"].items()}
     stages["all"] = sum(stages.values())
