@@ -140,7 +140,8 @@ TEST_CASE("tables show a speed given in knots with six digits, CSV with all", "[
     write_run(folder / "fast", six_knots, 0.1, 1, 900.0);
     const Sweep sweep = read_sweep(folder.path());
     CHECK_THAT(sweep_markdown(sweep), Catch::Contains("| 3.08667 |"));
-    CHECK_THAT(point_csv(sweep, make_points(sweep)), Catch::Contains(fmt::format("{},", six_knots)));
+    CHECK_THAT(point_csv(sweep, make_points(sweep)),
+               Catch::Contains(fmt::format("{},", six_knots)));
 }
 
 TEST_CASE("runs in 3D and in 2D share no chart, no table and no column", "[sweep]") {
