@@ -75,8 +75,8 @@ void MotionBounds::update(const Scene& scene, double dt) {
     // Only bodies that can move are measured: the ship, free floes, and held ones that drift.
     add_motion(kShip);
     for (const std::int32_t i : b.moving) add_motion(static_cast<std::size_t>(i));
-    for (std::size_t i = 1; i < b.size(); ++i)
-        if (b.held[i] && !b.velocity[i].isZero(0.0)) add_motion(i);
+    for (std::size_t i = 1; b.held_drift && i < b.size(); ++i)
+        if (b.held[i]) add_motion(i);
 }
 
 }  // namespace ice

@@ -15,8 +15,8 @@ void advance(Scene& scene, const Advance& step) {
     for_each_group(b, [&](std::span<const std::int32_t> floes, std::size_t) {
         advance_floes(b, floes, step);
     });
-    for (std::size_t i = 1; i < b.size(); ++i)  // held ice that drifts
-        if (b.held[i] && !b.velocity[i].isZero(0.0)) b.position[i] += step.dt * b.velocity[i];
+    for (std::size_t i = 1; b.held_drift && i < b.size(); ++i)
+        if (b.held[i]) b.position[i] += step.dt * b.velocity[i];
 }
 
 }  // namespace ice

@@ -5,13 +5,18 @@ namespace ice {
 
 void StepStart::take(const Bodies& bodies) {
     kinetic = kinetic_energy(bodies);
-    velocity = bodies.velocity;  // of held floes, too
-    // zero of ice that is held: a slot of level ice that moved may hold the edge now
-    angular_velocity.assign(bodies.size(), Vec3::Zero());
-    angular_velocity[kShip] = bodies.angular_velocity[kShip];
-    for (const std::int32_t i : bodies.moving) {
+    velocity.resize(bodies.size(), Vec3::Zero());
+    angular_velocity.resize(bodies.size(), Vec3::Zero());
+    // a slot of level ice that moved may hold the edge now
+    for (const std::int32_t i : taken) velocity[i] = angular_velocity[i] = Vec3::Zero();
+    taken = bodies.moving;
+    taken.push_back(kShip);
+    for (const std::int32_t i : taken) {
+        velocity[i] = bodies.velocity[i];
         angular_velocity[i] = bodies.angular_velocity[i];
     }
+    for (std::size_t i = 1; bodies.held_drift && i < bodies.size(); ++i)
+        if (bodies.held[i]) velocity[i] = bodies.velocity[i];
 }
 
 }  // namespace ice

@@ -12,8 +12,10 @@ struct StepStart {
     double kinetic = 0.0;  ///< kinetic energy of the free floes [J]
     /// Per body [m/s], [rad/s] in world axes, after floes were released; of held ice its drift.
     std::vector<Vec3> velocity, angular_velocity;
+    std::vector<std::int32_t> taken;  ///< the ship and the floes that moved: other ones are zero
 
-    /// Takes all three from the bodies.
+    /// Takes velocities and kinetic energy from the bodies. Always use it on the same bodies: the
+    /// work is that of the bodies that move, however many are held.
     void take(const Bodies& bodies);
 };
 

@@ -299,6 +299,7 @@ TEST_CASE("held ice that drifts works on its neighbour by push and friction, on 
                  Quaternion::Identity(), 0, held);
     Bodies& b = w.scene.bodies;
     b.velocity[2] = Vec3(0.3, -0.2, 0.0);
+    b.held_drift = true;
     StepStart start;
     start.take(b);
     PositionCorrections none;
