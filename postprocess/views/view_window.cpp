@@ -7,12 +7,13 @@ namespace ice::views {
 
 Window choose_window(const Eigen::AlignedBox3d& hull, ViewFrom from, double floe_size,
                      double half_breadth, double waterline) {
-    // Shares of the hull's length that show its wake, the ice ahead, and floes under the bottom;
-    // 1e-3 m keeps a window for a mesh without length.
+    // Shares of the hull's length that show its wake, the ice ahead, and floes under the bottom (no
+    // more than a quarter length: larger ice is unbroken and stays at the surface); 1e-3 m keeps a
+    // window for a mesh without length.
     const double length = std::max(hull.sizes().x(), 1e-3);
     const double side = half_breadth > 0.0 ? half_breadth : 0.45 * length;
     const double aft = hull.min().x() - 0.25 * length, ahead = hull.max().x() + 0.3 * length;
-    const double deep = hull.min().z() - std::max(0.06 * length, 1.8 * floe_size);
+    const double deep = hull.min().z() - std::clamp(1.8 * floe_size, 0.06 * length, 0.25 * length);
     const double high = std::max(hull.max().z(), waterline) + 0.04 * length;
     switch (from) {
         case ViewFrom::below:

@@ -6,6 +6,7 @@
 
 #include "postprocess/views/floe_style.hpp"
 #include "postprocess/views/hull_drawing.hpp"
+#include "postprocess/views/view_window.hpp"
 #include "tests/postprocess/make_folder.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -45,6 +46,12 @@ bool painted_in_front(ViewFrom from, const Vec3& at) {
 }
 
 }  // namespace
+
+TEST_CASE("a side view shows room for a floe under the hull, not for unbroken ice", "[views]") {
+    const Eigen::AlignedBox3d hull(Vec3(-50, -10, -8), Vec3(50, 10, 5));
+    for (const auto& [floe_size, room] : {std::pair{1.0, 6.0}, {5.0, 9.0}, {45.0, 25.0}})
+        CHECK(choose_window(hull, ViewFrom::side, floe_size, 0.0, 0.0).bottom == -8.0 - room);
+}
 
 TEST_CASE("all five views of a run are well-formed and show hull, floes, axes and time",
           "[views]") {
