@@ -14,8 +14,8 @@ struct StepStart {
     std::vector<Vec3> velocity, angular_velocity;
     std::vector<std::int32_t> taken;  ///< the ship and the floes that moved: other ones are zero
 
-    /// Takes velocities and kinetic energy from the bodies. Always use it on the same bodies: the
-    /// work is that of the bodies that move, however many are held.
+    /// Takes velocities and kinetic energy from the bodies, which are those of the last call. The
+    /// time follows the bodies that move, not those that are held, unless held ice drifts.
     void take(const Bodies& bodies);
 };
 

@@ -3,7 +3,7 @@
 # Times the solver and puts the tables into tests/bench/README.md:
 #   tests/bench/make_tables.sh [NAME]...
 # NAME is peers, scenes, threads, held, simd, kernels, level-ice, free-ship or side-by-side. Without
-# names all of them: a quarter of an hour. Other load of the machine falsifies the times.
+# names all of them: half an hour on a machine that does nothing else.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 bench=build/release/bin/icebench
