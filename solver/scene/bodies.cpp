@@ -15,6 +15,7 @@ void update_derived(Bodies& bodies, std::size_t i) {
     // drift at a constant velocity.
     if (bodies.held[i]) {
         bodies.velocity[i] = bodies.momentum[i] / bodies.mass[i];  // of ice that drifts
+        if (!bodies.velocity[i].isZero(0.0)) bodies.held_drift = true;
         bodies.angular_velocity[i] = Vec3::Zero();
         bodies.inverse_mass[i] = 0.0;
         bodies.inverse_inertia_world[i] = Mat3::Zero();

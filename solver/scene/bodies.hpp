@@ -68,7 +68,8 @@ struct Bodies {
     std::vector<Vec3> angular_momentum;   ///< about the centre of mass, world axes [kg m2/s]
     std::vector<std::uint8_t> held;       ///< kFree, kHeld or kBent
     std::vector<std::int32_t> moving;     ///< floes that are not held, ascending
-    bool held_drift = false;  ///< held ice has a velocity (ice.drift_velocity): it moves, too
+    /// Held ice moves at a constant velocity (ice.drift_velocity). Set by update_derived().
+    bool held_drift = false;
 
     // derived by update_derived(), changed together by the contact solver
     std::vector<Mat3> rotation;               ///< of `orientation`

@@ -220,7 +220,6 @@ std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const
             rotation * b.inertia(i) * rotation.transpose() * start.angular_velocity;
     }
     update_derived(b, i);
-    if (held && !b.velocity[i].isZero(0.0)) b.held_drift = true;
     return i;
 }
 

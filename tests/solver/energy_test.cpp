@@ -298,8 +298,8 @@ TEST_CASE("held ice that drifts works on its neighbour by push and friction, on 
         add_floe(w.scene, shape, 900.0, Vec3(9.0 + (held ? 1.0 : 0.0), 0, 0),
                  Quaternion::Identity(), 0, held);
     Bodies& b = w.scene.bodies;
-    b.velocity[2] = Vec3(0.3, -0.2, 0.0);
-    b.held_drift = true;
+    b.momentum[2] = b.mass[2] * Vec3(0.3, -0.2, 0.0);
+    update_derived(b, 2);
     StepStart start;
     start.take(b);
     PositionCorrections none;
