@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "solver/case/contact_law.hpp"
-#include "solver/narrow/contact.hpp"
+#include "solver/narrow/manifold/contact.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {

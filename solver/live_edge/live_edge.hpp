@@ -11,7 +11,7 @@
 #include "solver/level_ice/ice_sheet.hpp"
 #include "solver/live_edge/edge_window.hpp"
 #include "solver/live_edge/gone_pieces.hpp"
-#include "solver/narrow/contact.hpp"
+#include "solver/narrow/manifold/contact.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/narrow/separation.hpp"
+#include "solver/narrow/feature/separation.hpp"
 
 namespace ice {
 

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "common/base/parallel.hpp"
-#include "solver/narrow/contact.hpp"
-#include "solver/narrow/make_centre_contacts.hpp"
-#include "solver/narrow/search_pair.hpp"
-#include "solver/narrow/sphere_lists.hpp"
-#include "solver/narrow/touching_spheres.hpp"
+#include "solver/narrow/manifold/contact.hpp"
+#include "solver/narrow/manifold/make_centre_contacts.hpp"
+#include "solver/narrow/neighbours/search_pair.hpp"
+#include "solver/narrow/neighbours/sphere_lists.hpp"
+#include "solver/narrow/neighbours/touching_spheres.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {

@@ -6,15 +6,16 @@
 #include <limits>
 #include <numeric>
 
-#include "solver/narrow/check_depths.hpp"
-#include "solver/narrow/deep_seats.hpp"
-#include "solver/narrow/find_polygon.hpp"
-#include "solver/narrow/make_centre_contacts.hpp"
-#include "solver/narrow/make_contacts.hpp"
-#include "solver/narrow/measure_spheres.hpp"
-#include "solver/narrow/reduce_manifold.hpp"
-#include "solver/narrow/search_pair.hpp"
-#include "solver/narrow/separation.hpp"
+#include "solver/narrow/feature/deep_pair.hpp"
+#include "solver/narrow/feature/separation.hpp"
+#include "solver/narrow/manifold/check_depths.hpp"
+#include "solver/narrow/manifold/deep_seats.hpp"
+#include "solver/narrow/manifold/find_polygon.hpp"
+#include "solver/narrow/manifold/make_centre_contacts.hpp"
+#include "solver/narrow/manifold/make_contacts.hpp"
+#include "solver/narrow/manifold/measure_spheres.hpp"
+#include "solver/narrow/manifold/reduce_manifold.hpp"
+#include "solver/narrow/neighbours/search_pair.hpp"
 
 namespace ice {
 

@@ -9,10 +9,10 @@
 #include "solver/broad/find_pairs.hpp"
 #include "solver/case/case.hpp"
 #include "solver/narrow/centres_finder.hpp"
-#include "solver/narrow/contact.hpp"
-#include "solver/narrow/contact_rule.hpp"
 #include "solver/narrow/found_batch.hpp"
-#include "solver/narrow/pair_cache.hpp"
+#include "solver/narrow/manifold/contact.hpp"
+#include "solver/narrow/manifold/contact_rule.hpp"
+#include "solver/narrow/neighbours/pair_cache.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {

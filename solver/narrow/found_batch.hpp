@@ -5,13 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "solver/narrow/contact_polygon.hpp"
-#include "solver/narrow/deep_seats.hpp"
-#include "solver/narrow/make_contacts.hpp"
-#include "solver/narrow/measure_spheres.hpp"
-#include "solver/narrow/pair_cache.hpp"
-#include "solver/narrow/reduce_manifold.hpp"
-#include "solver/narrow/search_pair.hpp"
+#include "solver/narrow/feature/contact_polygon.hpp"
+#include "solver/narrow/manifold/deep_seats.hpp"
+#include "solver/narrow/manifold/make_contacts.hpp"
+#include "solver/narrow/manifold/measure_spheres.hpp"
+#include "solver/narrow/manifold/reduce_manifold.hpp"
+#include "solver/narrow/neighbours/pair_cache.hpp"
+#include "solver/narrow/neighbours/search_pair.hpp"
 
 namespace ice {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/narrow/way_out.hpp"
+#include "solver/narrow/feature/way_out.hpp"
 
 namespace ice {
 

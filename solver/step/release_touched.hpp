@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "solver/case/case.hpp"
-#include "solver/narrow/contact.hpp"
+#include "solver/narrow/manifold/contact.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {

@@ -8,7 +8,8 @@ set(order_common common/base common/toml common/geometry common/math common/form
 set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/repair
   preprocess/slice preprocess/fill preprocess/certify preprocess/field preprocess/write preprocess)
 set(order_solver solver/case solver/shape solver/bending solver/level_ice solver/flow solver/water
-  solver/scene solver/broad solver/narrow solver/contact solver/loads solver/integrate
+  solver/scene solver/broad solver/narrow/feature solver/narrow/neighbours
+  solver/narrow/manifold solver/narrow solver/contact solver/loads solver/integrate
   solver/ship solver/live_edge solver/record solver/step solver/run solver/draft
   solver/ensemble solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
@@ -46,6 +47,7 @@ solver/(icesolve(_options)?|iceflow)|postprocess/icepost(_options)?)\\.[ch]pp$)"
   "<box2d/"          "^tests/peers/"
   "<bt[A-Z]"         "^tests/(peers/|bench/icebench_bullet\\.cpp$)"
   "<ode/"            "^tests/bench/icebench_ode\\.cpp$"
+  "<(fc3d|Friction|Numerics|NonSmooth|SolverOptions|SparseBlock)" "^tests/siconos/siconos_solver\\.cpp$"
   "<catch2/"         "^tests/")
 
 set(max_columns 100)

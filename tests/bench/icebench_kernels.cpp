@@ -11,7 +11,7 @@
 #include "common/base/instruction_set.hpp"
 #include "common/base/timer.hpp"
 #include "solver/contact/sweep.hpp"
-#include "solver/narrow/search_pair.hpp"
+#include "solver/narrow/neighbours/search_pair.hpp"
 
 namespace ice::bench {
 

@@ -3,14 +3,14 @@
 //
 // Tolerances: 1e-6 is a normal stored as a float; 1 % of a section is the 0.1 mm by which a share
 // counts early, over 0.02 m.
-#include "solver/narrow/carry_shares.hpp"
+#include "solver/narrow/manifold/carry_shares.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "solver/narrow/make_contacts.hpp"
+#include "solver/narrow/manifold/make_contacts.hpp"
 #include "tests/support/make_filled_sets.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/support/tolerance.hpp"

@@ -3,7 +3,7 @@
 // above, a square of 4 m without its quarter x, y > 0, and a box of 1.2 x 1 x 0.4 m as a floe.
 //
 // Tolerances: 1e-6 is a normal or a radius stored as a float, 1e-7 of it.
-#include "solver/narrow/check_depths.hpp"
+#include "solver/narrow/manifold/check_depths.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,7 +11,8 @@
 #include <numbers>
 #include <random>
 
-#include "solver/narrow/deep_seats.hpp"
+#include "solver/narrow/feature/deep_pair.hpp"
+#include "solver/narrow/manifold/deep_seats.hpp"
 #include "tests/support/make_angle_world.hpp"
 #include "tests/support/tolerance.hpp"
 

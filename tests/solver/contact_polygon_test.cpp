@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where convex solids meet: polygons by hand, and bodies however deep they are in each other.
-#include "solver/narrow/contact_polygon.hpp"
+#include "solver/narrow/feature/contact_polygon.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,9 +10,9 @@
 #include <numbers>
 #include <set>
 
+#include "solver/narrow/feature/nearest_sphere.hpp"
 #include "solver/narrow/find_contacts.hpp"
-#include "solver/narrow/find_polygon.hpp"
-#include "solver/narrow/nearest_sphere.hpp"
+#include "solver/narrow/manifold/find_polygon.hpp"
 #include "tests/support/make_prisms.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/support/tolerance.hpp"

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "common/base/units.hpp"
-#include "solver/narrow/measure_gap.hpp"
+#include "solver/narrow/feature/measure_gap.hpp"
 #include "tests/support/tolerance.hpp"
 
 using namespace ice;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Feature types against the rule for two spheres.
-#include "solver/narrow/feature_pair.hpp"
+#include "solver/narrow/feature/feature_pair.hpp"
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -8,8 +8,8 @@
 #include <random>
 
 #include "solver/broad/find_pairs.hpp"
-#include "solver/narrow/edge_crossings.hpp"
-#include "solver/narrow/feature_pair_bound.hpp"
+#include "solver/narrow/feature/edge_crossings.hpp"
+#include "solver/narrow/feature/feature_pair_bound.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/support/tolerance.hpp"

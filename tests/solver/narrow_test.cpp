@@ -13,8 +13,8 @@
 #include <random>
 
 #include "solver/broad/find_pairs.hpp"
+#include "solver/narrow/feature/measure_gap.hpp"
 #include "solver/narrow/find_contacts.hpp"
-#include "solver/narrow/measure_gap.hpp"
 #include "solver/shape/sphere_grid.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/support/tolerance.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The search for near spheres: nothing missed, bits on every instruction set.
-#include "solver/narrow/near_spheres.hpp"
+#include "solver/narrow/neighbours/near_spheres.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>

@@ -3,7 +3,7 @@
 //
 // Tolerances: kTouch counts a face that far early; 1e-15 and 1e-14 are rounding of a product, 1e-12
 // that of a sum of many parts.
-#include "solver/narrow/patch.hpp"
+#include "solver/narrow/manifold/patch.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

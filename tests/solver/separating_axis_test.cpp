@@ -4,7 +4,7 @@
 //
 // Tolerances: 1e-15 and 1e-12 m are rounding of products of lengths of a metre; 1e-9 m is that of a
 // normal made of two edges that are almost parallel.
-#include "solver/narrow/separating_axis.hpp"
+#include "solver/narrow/feature/separating_axis.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

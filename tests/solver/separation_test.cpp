@@ -2,7 +2,7 @@
 // Bodies apart, and bodies whose edges cross each other.
 //
 // Tolerances: 1e-12 m is rounding of a few dozen products of lengths of a metre.
-#include "solver/narrow/separation.hpp"
+#include "solver/narrow/feature/separation.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Listed spheres: which touch, and the same bits on every instruction set.
-#include "solver/narrow/touching_spheres.hpp"
+#include "solver/narrow/neighbours/touching_spheres.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>

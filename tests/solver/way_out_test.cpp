@@ -2,7 +2,7 @@
 // The way out of a box of ice with a notch in its face towards +x.
 //
 // Tolerances: 1e-12 m is rounding of coordinates of a metre.
-#include "solver/narrow/way_out.hpp"
+#include "solver/narrow/feature/way_out.hpp"
 
 #include <catch2/catch.hpp>
 

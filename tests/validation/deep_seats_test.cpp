@@ -8,9 +8,10 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "solver/narrow/feature/deep_pair.hpp"
+#include "solver/narrow/feature/separating_axis.hpp"
 #include "solver/narrow/find_contacts.hpp"
-#include "solver/narrow/find_polygon.hpp"
-#include "solver/narrow/separating_axis.hpp"
+#include "solver/narrow/manifold/find_polygon.hpp"
 #include "solver/record/solid_overlap.hpp"
 #include "tests/support/make_angle_world.hpp"
 #include "tests/support/make_filled_sets.hpp"

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/feature/contact_polygon.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "common/base/assert.hpp"
+#include "common/math/ordered_products.hpp"
+
+namespace ice {
+
+namespace {
+
+// ClippedCorner::edge is k for the incident face's k-th edge, kSidePlanes + k along the reference's
+// k-th side plane. Room for a face's side planes in a corner's id [-]: at least as many as a piece
+// has planes. A smaller number would give two corners one id.
+constexpr std::uint32_t kSidePlanes = 64;
+static_assert(ConvexPiece::kMost <= kSidePlanes);
+
+// The faces that meet: of the reference piece plane `face`, the incident piece in its axes.
+struct Meeting {
+    const ConvexPiece& reference;
+    const ConvexPiece& incident;
+    RelativePose pose;  // of the incident piece
+    std::size_t face;
+};
+
+// The plane of the incident piece that is turned most against the reference's face.
+std::size_t incident_plane(const Meeting& m, const Vec3& n) {
+    const Vec3 towards = ordered_transposed(m.pose.rotation, n);
+    std::size_t best = 0;
+    double least = 2.0;
+    for (std::size_t k = 0; k < m.incident.plane_count(); ++k) {
+        const double facing = ordered_dot(m.incident.normals[k], towards);
+        if (facing >= least) continue;
+        least = facing;
+        best = k;
+    }
+    return best;
+}
+
+// Where the line through two points, at these heights over a plane, meets it: the same bits from
+// either end.
+Vec3 between(const Vec3& p, double height_p, const Vec3& q, double height_q) {
+    return (height_p * q - height_q * p) / (height_p - height_q);
+}
+
+// Keeps the part of work.polygon within the side plane, which is `slack` [m] farther out.
+void clip(const SidePlane& side, double slack, std::uint32_t number, ClippingWork& work) {
+    auto& [face, polygon, rest, height] = work;
+    height.clear();
+    for (const ClippedCorner& corner : polygon)
+        height.push_back(ordered_dot(side.outward, corner.at) - (side.offset + slack));
+    if (std::all_of(height.begin(), height.end(), [](double h) { return h <= 0.0; })) return;
+    rest.clear();
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const std::size_t next = (k + 1) % polygon.size();
+        const bool inside = height[k] <= 0.0;
+        // Sutherland and Hodgman: corners inside stay, and an edge across the side plane gives a
+        // new one. From there the outline follows the plane where it leaves, and the same
+        // edge where it comes in.
+        if (inside) rest.push_back(polygon[k]);
+        if (inside == (height[next] <= 0.0)) continue;
+        rest.push_back({between(polygon[k].at, height[k], polygon[next].at, height[next]),
+                        inside ? number : polygon[k].edge});
+    }
+    polygon.swap(rest);
+}
+
+double slack_of_gap(double gap) { return PolygonTolerances::kBesidePlane + std::max(gap, 0.0); }
+
+// The corners of the incident face clipped by the reference's side planes; their places are found
+// from the features that meet there, not from those found while clipping: so mirror images, clipped
+// in another order, have the same bits.
+class ClippedFace {
+public:
+    // @param slack  the side planes are this much farther out [m]
+    // @param work   referred to, not copied
+    ClippedFace(const Meeting& m, double slack, ClippingWork& work)
+        : m_(m),
+          slack_(slack),
+          n_(m.reference.normals[m.face]),
+          face_(work.face),
+          polygon_(work.polygon) {
+        plane_ = incident_plane(m, n_);
+        face_.clear();
+        for (const std::int32_t corner : m.incident.loops[plane_]) {
+            const Vec3 at = m.incident.corners[static_cast<std::size_t>(corner)];
+            face_.push_back(ordered_product(m.pose.rotation, at) + m.pose.translation);
+        }
+        // The whole incident face is clipped by one side plane after the other. Nothing is left of
+        // it where the faces lie side by side.
+        polygon_.clear();
+        for (const Vec3& at : face_)
+            polygon_.push_back({at, static_cast<std::uint32_t>(polygon_.size())});
+        const std::vector<SidePlane>& sides = m.reference.side_planes[m.face];
+        for (std::size_t k = 0; k < sides.size() && !polygon_.empty(); ++k)
+            clip(sides[k], slack, kSidePlanes + static_cast<std::uint32_t>(k), work);
+    }
+
+    // Calls visit(place, id) for each corner, places in the reference's axes.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for (std::size_t k = 0; k < polygon_.size(); ++k) {
+            // The two edges that meet in a corner name it: the same corner has the same id in
+            // the next step.
+            const std::uint32_t before = polygon_[(k + polygon_.size() - 1) % polygon_.size()].edge,
+                                after = polygon_[k].edge;
+            visit(place(before, after, polygon_[k].at), before << 7 | after);
+        }
+    }
+
+private:
+    Vec3 place(std::uint32_t before, std::uint32_t after, const Vec3& clipped) const {
+        if (before < kSidePlanes && after < kSidePlanes) return clipped;  // the incident face's own
+        if (before >= kSidePlanes && after >= kSidePlanes)
+            return over_corner(before - kSidePlanes, after - kSidePlanes, clipped);
+        // one edge of either face: where the incident edge passes the side plane
+        const std::size_t edge = std::min(before, after);
+        const SidePlane& side =
+            m_.reference.side_planes[m_.face][std::max(before, after) - kSidePlanes];
+        const Vec3 &p = face_[edge], &q = face_[(edge + 1) % face_.size()];
+        const double offset = side.offset + slack_;
+        return between(p, ordered_dot(side.outward, p) - offset, q,
+                       ordered_dot(side.outward, q) - offset);
+    }
+    // On the incident face, where two side planes meet: over the reference's corner between them.
+    Vec3 over_corner(std::size_t before, std::size_t after, const Vec3& clipped) const {
+        const std::vector<std::int32_t>& loop = m_.reference.loops[m_.face];
+        // they meet beyond other side planes
+        if (before != (after + 1) % loop.size()) return clipped;
+        const Vec3 corner = m_.reference.corners[static_cast<std::size_t>(loop[before])];
+        // along the reference's normal to the incident plane
+        const Vec3 incident = ordered_product(m_.pose.rotation, m_.incident.normals[plane_]);
+        const double offset =
+            m_.incident.offsets[plane_] + ordered_dot(incident, m_.pose.translation);
+        const double height = (offset - ordered_dot(incident, corner)) / ordered_dot(incident, n_);
+        return corner + height * n_;
+    }
+
+    const Meeting& m_;
+    double slack_;
+    Vec3 n_;
+    std::size_t plane_;
+    std::vector<Vec3>& face_;
+    std::vector<ClippedCorner>& polygon_;
+};
+
+// Corners between the reference's face and the clipped incident one, in the reference's axes.
+void meet_faces(const Meeting& m, double gap, double most, std::uint32_t kind, ClippingWork& work,
+                ContactPolygon& out) {
+    const Vec3 n = m.reference.normals[m.face];
+    const std::uint32_t face_id = kind << 30 | static_cast<std::uint32_t>(m.face) << 14;
+    ClippedFace(m, slack_of_gap(gap), work).for_each([&](const Vec3& at, std::uint32_t id) {
+        // half of the gap back from the incident corner: midway between the surfaces
+        const double height = ordered_dot(n, at) - m.reference.offsets[m.face];
+        if (height <= most) out.corners.push_back({at - 0.5 * height * n, height, face_id | id});
+    });
+}
+
+// Midway between two edges where their lines are nearest; nowhere where that is beyond an end.
+void meet_edges(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                const SeparatingAxes& axes, ContactPolygon& out) {
+    const auto ka = static_cast<std::size_t>(axes.edge_a),
+               kb = static_cast<std::size_t>(axes.edge_b);
+    const Vec3 pa = a.edge_middle[ka], ea = a.edge_along[ka];
+    const Vec3 pb = ordered_product(pose.rotation, b.edge_middle[kb]) + pose.translation,
+               eb = ordered_product(pose.rotation, b.edge_along[kb]);
+    // The closest points p_a + s e_a and p_b + t e_b of two lines, with c = e_a x e_b: s = (e_b
+    // x c) . (p_b - p_a) / |c|^2 and t = (e_a x c) . (p_b - p_a) / |c|^2.
+    const Vec3 apart = pb - pa, across = ea.cross(eb);
+    const double square = ordered_dot(across, across);
+    const double along_a = ordered_dot(eb.cross(across), apart) / square,
+                 along_b = ordered_dot(ea.cross(across), apart) / square;
+    const auto half = [](const ConvexPiece& piece, std::size_t k) {
+        const SolidEdge& e = piece.edges[k];
+        return (piece.corners[static_cast<std::size_t>(e.end)] - piece.edge_middle[k]).norm();
+    };
+    const double slack = slack_of_gap(axes.edges);
+    if (std::abs(along_a) > half(a, ka) + slack || std::abs(along_b) > half(b, kb) + slack) return;
+    out.corners.push_back({0.5 * (pa + along_a * ea + pb + along_b * eb), axes.edges,
+                           3u << 30 | static_cast<std::uint32_t>(ka << 12 | kb)});
+}
+
+// A sort key that mirror images about y = 0 have in common.
+auto mirror_key(const PolygonCorner& c) {
+    return std::tuple(c.point.x(), std::abs(c.point.y()), c.point.z());
+}
+
+// Area of the triangle that the polygon loses with corner k [m2], twice.
+double loss_of(const std::vector<PolygonCorner>& corners, std::size_t k) {
+    const std::size_t n = corners.size();
+    const Vec3 &at = corners[k].point, before = corners[(k + n - 1) % n].point - at,
+               after = corners[(k + 1) % n].point - at;
+    return before.cross(after).norm();
+}
+
+enum class AxisKind { face_a, face_b, edges };
+
+AxisKind widest_kind(const SeparatingAxes& axes) {
+    // In the order a's face, b's face, edges: a later kind needs a wider gap by kPrefer.
+    const bool of_b = axes.face_b > axes.face_a + PolygonTolerances::kPrefer;
+    if (axes.edges > (of_b ? axes.face_b : axes.face_a) + PolygonTolerances::kPrefer)
+        return AxisKind::edges;
+    return of_b ? AxisKind::face_b : AxisKind::face_a;
+}
+
+}  // namespace
+
+Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                 const SeparatingAxes& axes) {
+    const AxisKind kind = widest_kind(axes);
+    if (kind == AxisKind::edges) return edge_axis(a, b, pose, axes.edge_a, axes.edge_b);
+    if (kind == AxisKind::face_a) return a.normals[static_cast<std::size_t>(axes.plane_a)];
+    return -ordered_product(pose.rotation, b.normals[static_cast<std::size_t>(axes.plane_b)]);
+}
+
+void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                          const SeparatingAxes& axes, double most, ClippingWork& work,
+                          ContactPolygon& out) {
+    out.corners.clear();
+    out.normal = axis_normal(a, b, pose, axes);
+    const AxisKind kind = widest_kind(axes);
+    if (kind == AxisKind::edges) {
+        if (axes.edges <= most) meet_edges(a, b, pose, axes, out);
+        return;
+    }
+    if (kind == AxisKind::face_a) {
+        const auto plane = static_cast<std::size_t>(axes.plane_a);
+        meet_faces({a, b, pose, plane}, axes.face_a, most, 0u, work, out);
+        return;
+    }
+    // b's face is the reference: the same in b's axes, and back again
+    const RelativePose back{pose.rotation.transpose(),
+                            -ordered_transposed(pose.rotation, pose.translation)};
+    meet_faces({b, a, back, static_cast<std::size_t>(axes.plane_b)}, axes.face_b, most, 1u, work,
+               out);
+    for (PolygonCorner& corner : out.corners)
+        corner.point = ordered_product(pose.rotation, corner.point) + pose.translation;
+}
+
+void reduce_polygon(std::size_t count, ContactPolygon& polygon) {
+    ICE_ASSERT(count > 2);
+    std::vector<PolygonCorner>& corners = polygon.corners;
+    while (corners.size() > count) {
+        // The deepest corner stays, as it bounds the overlap; of the others the one is dropped
+        // whose removal costs the least area. Ties are decided by place, mirrored alike, so that a
+        // mirrored pair keeps mirrored corners.
+        std::size_t deepest = 0, least = corners.size();
+        for (std::size_t k = 1; k < corners.size(); ++k)
+            if (std::tuple(corners[k].gap, mirror_key(corners[k])) <
+                std::tuple(corners[deepest].gap, mirror_key(corners[deepest])))
+                deepest = k;
+        double loss = 0.0;
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const double now = loss_of(corners, k);
+            if (k == deepest) continue;
+            if (least < corners.size() && std::tuple(now, mirror_key(corners[k])) >=
+                                              std::tuple(loss, mirror_key(corners[least])))
+                continue;
+            least = k;
+            loss = now;
+        }
+        corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(least));
+    }
+}
+
+}  // namespace ice

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Contact manifold of two convex pieces: where they meet along their separating axis.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "solver/narrow/feature/separating_axis.hpp"
+
+namespace ice {
+
+/// Lengths within which two convex pieces are judged.
+struct PolygonTolerances {
+    /// A face of a is the reference until one of b is this much farther away, and faces until two
+    /// edges are [m]: faces that lie flush differ by rounding, and shall keep their contacts from
+    /// step to step. More makes gaps wrong by as much; less lets the reference, and with it the
+    /// contacts' ids, change between steps.
+    static constexpr double kPrefer = 5e-5;
+
+    /// A corner this far beyond a side plane of the reference face counts as over the face [m]:
+    /// side planes of flush faces differ by rounding. More gives contacts beside the face; less
+    /// loses corners on its side planes.
+    static constexpr double kBesidePlane = 1e-4;
+};
+
+/// One corner of the polygon in which two pieces meet.
+struct PolygonCorner {
+    Vec3 point;  ///< midway between the surfaces, a's axes [m]
+    double gap;  ///< along the axis, negative where the pieces overlap [m]
+    std::uint32_t
+        id;  ///< by the features that meet there: the same corner keeps it from step to step
+};
+
+/// The corners in which two pieces meet, and their common normal.
+struct ContactPolygon {
+    Vec3 normal = Vec3::Zero();  ///< unit, from a to b, a's axes
+    std::vector<PolygonCorner> corners;
+};
+
+/// A corner of the incident face as it is clipped, in the reference's axes [m]; `edge` names the
+/// edge from it to the next one: of the incident face or along a side plane.
+struct ClippedCorner {
+    Vec3 at;
+    std::uint32_t edge;
+};
+
+/// Work memory of make_contact_polygon, which keeps its capacity between pairs.
+struct ClippingWork {
+    std::vector<Vec3> face;                    ///< the incident face before it is clipped
+    std::vector<ClippedCorner> polygon, rest;  ///< what is left of it, before and after a cut
+    std::vector<double> height;                ///< of the polygon over a side plane [m]
+};
+
+/// The corners of the polygon in which two convex pieces meet, as far as their gap is at most
+/// `most` [m]; keeps `out`'s memory.
+///
+/// The axis with the widest gap decides. Where it is a face's, that face is the reference; of the
+/// other piece the face that is turned most against it is the incident one, clipped by the
+/// reference's side planes (Sutherland and Hodgman, Reentrant polygon clipping, CACM 17, 1974). Two
+/// edges meet in one point, midway between them where they are nearest. A face that has not touched
+/// yet may be past a side plane by its gap: it may come from beside. No corners where every gap
+/// exceeds `most`.
+/// @param axes  find_axes() of these pieces and this pose, all kinds
+void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                          const SeparatingAxes& axes, double most, ClippingWork& work,
+                          ContactPolygon& out);
+
+/// The axis with the widest gap, unit, from a to b, a's axes; flush ones by PolygonTolerances, a's
+/// face before b's before two edges.
+Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                 const SeparatingAxes& axes);
+
+/// This many corners [-] carry nearly the same forces and moments as a polygon with more. Three
+/// carry no load outside their triangle; each further one costs a row in the contact solver.
+constexpr std::size_t kManifoldCorners = 4;
+
+/// Removes the corner whose loss takes the least area until `count` remain; the deepest stays.
+/// @pre count > 2
+void reduce_polygon(std::size_t count, ContactPolygon& polygon);
+
+}  // namespace ice

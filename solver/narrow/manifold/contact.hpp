@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The output of the narrow phase and input of the contact solver.
+#pragma once
+
+#include <cstdint>
+
+#include "common/geometry/triangle_mesh.hpp"
+#include "solver/narrow/manifold/patch.hpp"
+
+namespace ice {
+
+/// A place where two bodies touch or may touch within the step. Lists of contacts are ordered by
+/// (a, b), within a pair by place (ContactFinder): results depend on that order.
+struct Contact {
+    std::int32_t a, b;                ///< bodies, a < b; a = 0 is the ship
+    std::int32_t sphere_a, sphere_b;  ///< surface spheres of their shapes; -1 where solids meet
+    std::uint64_t key;                ///< the same contact of a pair keeps it in the next step
+    Vec3 point;                       ///< midway between the surfaces, world axes [m]
+    Vec3 normal;                      ///< unit, from a to b
+    double gap;                       ///< [m], negative where the surfaces overlap
+    Patch patch;                      ///< the surface that presses here, for the bound (13)
+    std::int32_t region;              ///< row of the hull's region_names; -1 between floes
+    bool crushes_a;                   ///< the ice that is crushed is sphere_a's; else sphere_b's
+};
+
+}  // namespace ice
