@@ -47,7 +47,8 @@ solver/(icesolve(_options)?|iceflow)|postprocess/icepost(_options)?)\\.[ch]pp$)"
   "<box2d/"          "^tests/peers/"
   "<bt[A-Z]"         "^tests/(peers/|bench/icebench_bullet\\.cpp$)"
   "<ode/"            "^tests/bench/icebench_ode\\.cpp$"
-  "<(fc3d|Friction|Numerics|NonSmooth|SolverOptions|SparseBlock)" "^tests/siconos/siconos_solver\\.cpp$"
+  "<(fc3d|Friction|Numerics|NonSmooth|SolverOptions|SparseBlock)"
+                     "^tests/siconos/siconos_solver\\.cpp$"
   "<catch2/"         "^tests/")
 
 set(max_columns 100)

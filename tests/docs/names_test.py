@@ -24,7 +24,7 @@ def listed():
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     block = text.split("## Where things are", 1)[1].split("```")[1]
     names, top = [], ""
-    for indent, name in re.findall(r"^( *)([a-z_]+)/ ", block, re.M):
+    for indent, name in re.findall(r"^( *)([a-z_]+(?:/[a-z_]+)*)/ ", block, re.M):
         if indent:
             names.append(f"{top}/{name}")
         else:
