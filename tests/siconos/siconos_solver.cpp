@@ -20,7 +20,8 @@ namespace ice::oracle {
 
 namespace {
 
-// Siconos' error [-] at which a solution ends. README.md has what is left of the forces.
+// Siconos' error [-] at which a solution ends. README.md's table shows the difference of the forces
+// that remains.
 constexpr double kTolerance = 1e-7;
 
 // The contact's frame as columns: normal, two tangents.

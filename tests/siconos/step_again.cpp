@@ -21,12 +21,12 @@ constexpr int kEnough = 100000;
 
 bool is_of_ship(const Constraint& c) { return c.a == static_cast<std::int32_t>(kShip); }
 
-// One stage of our solution: its impulses, and what is left of the bound before it.
+// The conditions of one stage, and our impulses in it.
 struct Stage {
     std::function<double(const Constraint&)> target;  // [m/s]
     std::function<bool(const Constraint&)> takes_part;
     std::function<Vec3(const Constraint&)> impulse;     // ours [N s]
-    std::function<bool(const Constraint&)> is_bounded;  // carries all that its bound leaves it
+    std::function<bool(const Constraint&)> is_bounded;  // at its upper bound
 };
 
 // Siconos' impulses on the ship for a stage, those of contacts at their bound being ours.
