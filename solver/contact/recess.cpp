@@ -85,6 +85,7 @@ void Recess::find_moves(const Scene& scene, double dt, const std::vector<Contact
         // (13a): the increase of depth since the last step, less the part that the motion
         // explains, at most down to the deepest neighbour. Whole ice has no recess.
         const Contact& c = contacts[k];
+        if (c.is_rigid()) continue;
         const Place place = place_of(c);
         const double deeper = -c.gap - last_depth(c, at);
         if (deeper <= 0.0 || scene.crushed.is_whole(place.body) || !has_past(c)) continue;

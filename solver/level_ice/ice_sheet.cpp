@@ -219,6 +219,8 @@ Loop loop_of(const Eigen::AlignedBox2d& box) {
     return {{a.x(), a.y()}, {b.x(), a.y()}, {b.x(), b.y()}, {a.x(), b.y()}};
 }
 
+Loop on_lattice(const Loop& loop) { return from_lattice(to_lattice(loop)); }
+
 std::vector<Loop> common_part(const Loop& loop, const Loop& region) {
     return outer_loops(combine({loop}, region, cl::ctIntersection));
 }
@@ -233,14 +235,10 @@ Loop joined(const Loop& a, const Loop& b) {
     return std::move(parts[0].outer);
 }
 
-std::vector<Loop> shrunk(const Loop& loop, double by, double smallest) {
+std::vector<Loop> shrunk(const Loop& loop, double by, double smallest, double nearest) {
     // Longest mitre at a hollow corner, in widths of the strip [-]: notches sharper than 60 degrees
     // are widened square. Larger cuts a spike into the ice there.
     constexpr double kMitre = 2.0;
-    // Least distance of corners [m]: nearer ones would each get a sphere in a corner. Larger moves
-    // the outline by up to as much.
-    constexpr double kNearest = 1e-3;
-    // Corners move along their mitres; those nearer to each other than a millimetre are merged.
     cl::ClipperOffset offset(kMitre);
     offset.AddPath(to_lattice(loop), cl::jtMiter, cl::etClosedPolygon);
     cl::PolyTree tree;
@@ -248,7 +246,7 @@ std::vector<Loop> shrunk(const Loop& loop, double by, double smallest) {
     std::vector<Loop> out;
     for (const Part& part : parts_of(tree)) {
         cl::Path path = to_lattice(part.outer);
-        cl::CleanPolygon(path, kNearest / kLattice);
+        cl::CleanPolygon(path, nearest / kLattice);
         Loop clean = from_lattice(path);
         if (!part.holes.empty() || clean.size() < 3 || is_too_small(clean, smallest)) continue;
         out.push_back(std::move(clean));

@@ -67,6 +67,9 @@ private:
 /// Corners of a box, 4, anticlockwise [m].
 Loop loop_of(const Eigen::AlignedBox2d& box);
 
+/// The loop with its corners on the lattice of IceSheet.
+Loop on_lattice(const Loop& loop);
+
 /// The intersection of two loops, and `loop` less `region`: outer loops, largest first.
 /// Holes are left out: theirs is the area that is missing to the loop's. Empty where there is
 /// nothing.
@@ -77,8 +80,8 @@ std::vector<Loop> without(const Loop& loop, const Loop& region);
 Loop joined(const Loop& a, const Loop& b);
 
 /// A loop moved inwards by `by` [m], which may separate it: parts of at least `smallest` in the
-/// sense of IceSheet [m], without corners nearer to each other than 1 mm; none where nothing is
-/// left.
-std::vector<Loop> shrunk(const Loop& loop, double by, double smallest);
+/// sense of IceSheet [m]; none where nothing is left. Corners nearer than `nearest` [m] to each
+/// other, or to the line between those beside them, are merged.
+std::vector<Loop> shrunk(const Loop& loop, double by, double smallest, double nearest);
 
 }  // namespace ice

@@ -95,7 +95,7 @@ void LiveEdge::add_slots(Scene& scene, const Case& p) {
             "check bending.elastic_modulus and level_ice.thickness, or narrow level_ice.extent");
     const double half = 0.5 * thickness_;
     const Loop square = loop_of(Box(Vec2(-half, -half), Vec2(half, half)));
-    if (std::optional<Shape> shape = shape_of(square, prism_spec(p), is_strip_))
+    if (std::optional<Shape> shape = shape_of(square, prism_spec(p), kind_of(true)))
         empty_ = std::move(*shape);
     else
         throw bad_input(

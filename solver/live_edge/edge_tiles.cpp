@@ -26,7 +26,8 @@ public:
         }
         parts_.resize(static_cast<std::size_t>(count_[0] * count_[1]));
         whole_.resize(parts_.size(), 0);
-        for (std::int64_t i = 0; i < count_[0]; ++i) fill_column(sheet, i);
+        const std::vector<std::uint8_t> crossed = cells_of_edges(sheet);
+        for (std::int64_t i = 0; i < count_[0]; ++i) fill_column(sheet, crossed, i);
     }
 
     void join_slivers(const std::function<bool(const Loop&)>& can_be_filled) {
@@ -34,6 +35,7 @@ public:
         // with which it has a common side; without one it is left out.
         for (std::int64_t i = 0; i < count_[0]; ++i)
             for (std::int64_t j = 0; j < count_[1]; ++j) {
+                if (whole_[row(i, j)]) continue;
                 std::vector<Loop> kept;
                 for (Loop& part : parts(i, j)) {
                     if (can_be_filled(part))
@@ -72,14 +74,43 @@ private:
     }
     std::vector<Loop>& parts(std::int64_t i, std::int64_t j) { return parts_[row(i, j)]; }
 
+    // By cell: may an edge of the sheet touch it? All others are whole or without ice.
+    std::vector<std::uint8_t> cells_of_edges(const IceSheet& sheet) const {
+        std::vector<std::uint8_t> out(parts_.size(), 0);
+        for (const Loop& loop : sheet.loops())
+            for (std::size_t k = 0; k < loop.size(); ++k) {
+                const Vec2 &p = loop[k], &q = loop[(k + 1) % loop.size()];
+                std::array<std::int64_t, 2> low, high;
+                for (int d = 0; d < 2; ++d) {
+                    const double beside = kWhole * grid_.cell;
+                    low[d] = index_of(std::min(p[d], q[d]) - beside, d) - first_[d];
+                    high[d] = index_of(std::max(p[d], q[d]) + beside, d) - first_[d];
+                    low[d] = std::max(low[d], std::int64_t{0});
+                    high[d] = std::min(high[d], count_[d] - 1);
+                }
+                for (std::int64_t i = low[0]; i <= high[0]; ++i)
+                    for (std::int64_t j = low[1]; j <= high[1]; ++j) out[row(i, j)] = 1;
+            }
+        return out;
+    }
+
     // the sheet's many corners are read once for each column, not for each cell
-    void fill_column(const IceSheet& sheet, std::int64_t i) {
+    void fill_column(const IceSheet& sheet, const std::vector<std::uint8_t>& crossed,
+                     std::int64_t i) {
         const Box box(corner(i, 0), corner(i + 1, count_[1]));
         const IceSheet column = sheet.in_box(box);
         const double whole = grid_.cell * grid_.cell * (1.0 - kWhole);
         for (std::int64_t j = 0; j < count_[1]; ++j) {
-            parts(i, j) = column.parts_in(Box(corner(i, j), corner(i + 1, j + 1)));
-            whole_[row(i, j)] = parts(i, j).size() == 1 && area_of(parts(i, j)[0]) >= whole;
+            const Box cell(corner(i, j), corner(i + 1, j + 1));
+            if (crossed[row(i, j)]) {
+                parts(i, j) = column.parts_in(cell);
+                whole_[row(i, j)] = parts(i, j).size() == 1 && area_of(parts(i, j)[0]) >= whole;
+                continue;
+            }
+            // side by side, such cells are alike
+            whole_[row(i, j)] = j > 0 && !crossed[row(i, j - 1)] ? whole_[row(i, j - 1)]
+                                                                 : sheet.contains(cell.center());
+            if (whole_[row(i, j)]) parts(i, j) = {on_lattice(loop_of(cell))};
         }
     }
 

@@ -55,7 +55,8 @@ void LiveEdge::lay_tiles(const Scene& scene, Plan& plan) {
 void LiveEdge::fill(const Case& p, Plan& plan) const {
     const PrismSpec prism = prism_spec(p);
     parallel_tasks(plan.bodies.size(), true, [&](std::size_t k) {
-        plan.bodies[k].shape = shape_of(plan.bodies[k].outline, prism, is_strip_);
+        const Plan::Body& body = plan.bodies[k];
+        plan.bodies[k].shape = shape_of(body.outline, prism, kind_of(body.is_tile));
     });
 }
 
@@ -152,7 +153,8 @@ void LiveEdge::restore(Scene& scene, const Case& p) const {
     std::vector<std::optional<Shape>> shapes(slots_.size());
     parallel_tasks(slots_.size(), true, [&](std::size_t k) {
         if (slots_[k].use != Use::free)
-            shapes[k] = shape_of(slots_[k].outline, prism_spec(p), is_strip_);
+            shapes[k] =
+                shape_of(slots_[k].outline, prism_spec(p), kind_of(slots_[k].use == Use::tile));
     });
     Bodies& b = scene.bodies;
     for (std::size_t k = 0; k < slots_.size(); ++k) {

@@ -196,9 +196,9 @@ bool LiveEdge::crush_through(const std::vector<Loop>& hull) {
     // whole thickness is gone. It must be deep, and more than a sliver, before the polygon
     // changes.
     for (const Loop& core : common_part(hull[0], hull[1]))
-        for (const Loop& deep : shrunk(core, 2.0 * kCrushed * thickness_, 0.0)) {
+        for (const Loop& deep : shrunk(core, 2.0 * kCrushed * thickness_, 0.0, kNearest)) {
             if (sheet_.area_in(deep) <= kCrushed * thickness_ * breadth) continue;
-            for (const Loop& gone : shrunk(core, kCrushed * thickness_, 0.0))
+            for (const Loop& gone : shrunk(core, kCrushed * thickness_, 0.0, kNearest))
                 gone_.crushed += sheet_.take(gone);
             any = true;
         }
@@ -259,10 +259,17 @@ bool LiveEdge::can_be_filled(const Loop& outline) const {
     return ice::can_be_filled(outline, thickness_);
 }
 
+EdgeBody LiveEdge::kind_of(bool is_tile) const {
+    if (is_strip_) return EdgeBody::strip;
+    return is_tile ? EdgeBody::tile : EdgeBody::piece;
+}
+
 std::vector<Loop> LiveEdge::bodies_of(const Loop& part) const {
     if (is_strip_) return strip_bodies(part, gap_, kSmallestPiece * thickness_);
     std::vector<Loop> out;
-    for (Loop& loop : shrunk(part, 0.5 * gap_, kSmallestPiece * thickness_))
+    // Corners that half the gap makes needless are left out: the outline stays within the gap.
+    const double half = 0.5 * gap_;
+    for (Loop& loop : shrunk(part, half, kSmallestPiece * thickness_, std::max(kNearest, half)))
         if (can_be_filled(loop)) out.push_back(std::move(loop));
     return out;
 }

@@ -11,6 +11,7 @@
 #include "solver/level_ice/ice_sheet.hpp"
 #include "solver/live_edge/edge_window.hpp"
 #include "solver/live_edge/gone_pieces.hpp"
+#include "solver/live_edge/slot_shapes.hpp"
 #include "solver/narrow/manifold/contact.hpp"
 #include "solver/scene/bodies.hpp"
 
@@ -41,6 +42,9 @@ struct IceAreas {
 /// of a ship that advances in ice at rest.
 ///
 /// In 2D the sheet is a strip (strip.hpp): areas are lengths, per metre of breadth.
+///
+/// Pieces meet each other as solids that cannot be crushed (Shape::parts): what presses them together
+/// comes from the ship or from the held edge, and there they crush.
 ///
 /// Bodies come from a fixed number of slots; floes further astern than half a ship's length, or the
 /// last one where no slot is left, are taken out of the scene.
@@ -153,6 +157,7 @@ private:
     void retire(std::size_t slot, double time, Plan& plan);
     std::size_t free_slot(const Scene& scene, double time, Plan& plan);
     bool can_be_filled(const Loop& outline) const;
+    EdgeBody kind_of(bool is_tile) const;
     std::vector<Loop> bodies_of(const Loop& part) const;
 
     // from the case and the hull

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/base/error.hpp"
+#include "solver/live_edge/edge_plan.hpp"
 #include "solver/live_edge/strip.hpp"
 
 namespace ice {
@@ -31,13 +32,16 @@ PrismSpec prism_spec(const Case& p) {
             ice.spacing, true};
 }
 
-std::optional<Shape> shape_of(const Loop& outline, const PrismSpec& prism, bool is_strip) {
+std::optional<Shape> shape_of(const Loop& outline, const PrismSpec& prism, EdgeBody as) {
     Loop centred;
     const Vec2 centre = centroid_of(outline);
     for (const Vec2& p : outline) centred.push_back(p - centre);
     try {
-        return build_shape(
-            is_strip ? fill_strip(strip_length(outline), prism) : fill_prism(centred, prism), true);
+        if (as == EdgeBody::strip)
+            return build_shape(fill_strip(strip_length(outline), prism), true);
+        Shape shape = build_shape(fill_prism(centred, prism), true);
+        if (as == EdgeBody::piece) shape.parts = prism_parts(centred, prism.thickness);
+        return shape;
     } catch (const Error&) {
         return std::nullopt;
     }
@@ -48,7 +52,7 @@ Vec2 parked_at(const Eigen::AlignedBox2d& sheet, double thickness, std::size_t s
 }
 
 bool can_be_filled(const Loop& outline, double thickness) {
-    return !shrunk(outline, kHolds * thickness, 0.0).empty();
+    return !shrunk(outline, kHolds * thickness, 0.0, kNearest).empty();
 }
 
 }  // namespace ice

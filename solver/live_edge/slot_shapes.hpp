@@ -2,6 +2,7 @@
 /// The inside of LiveEdge: shapes of tiles and pieces, and the places of slots without ice.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "preprocess/field/fill_prism.hpp"
@@ -14,10 +15,13 @@ namespace ice {
 /// How the ice of a case is filled with spheres.
 PrismSpec prism_spec(const Case& p);
 
+/// A tile or piece of a sheet, or either of a strip in 2D.
+enum class EdgeBody : std::uint8_t { tile, piece, strip };
+
 /// About its centroid; none where no sphere fits, or a corner gets none. An Error there is no fault
 /// of the case: such ice is brash.
 /// @param outline  [m]
-std::optional<Shape> shape_of(const Loop& outline, const PrismSpec& prism, bool is_strip);
+std::optional<Shape> shape_of(const Loop& outline, const PrismSpec& prism, EdgeBody as);
 
 /// Is there room for a sphere in ice of that outline [m]? @param thickness  [m]
 bool can_be_filled(const Loop& outline, double thickness);

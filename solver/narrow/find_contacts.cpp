@@ -95,9 +95,19 @@ void ContactFinder::meet(const PairView& view, const SeparatingAxes& axes, doubl
     keep_polygon(found, batch);
 }
 
+// The same for bodies in several parts.
+void ContactFinder::meet_parts(const PairView& view, double most, Found& found, FoundBatch& batch) {
+    found.corners.first = batch.corners.size();
+    find_part_polygons(view.shape_a.parts, view.shape_b.parts,
+                       {view.rotation_ab, view.translation_ab}, most, batch.pair.parts,
+                       batch.corners);
+    found.corners.count = batch.corners.size() - found.corners.first;
+}
+
 void ContactFinder::keep_polygon(Found& found, FoundBatch& batch) {
-    found.corners = FoundPart::append(batch.pair.polygon.corners, batch.corners);
-    found.normal = batch.pair.polygon.normal;
+    found.corners = {batch.corners.size(), batch.pair.polygon.corners.size()};
+    for (const PolygonCorner& corner : batch.pair.polygon.corners)
+        batch.corners.push_back({corner, batch.pair.polygon.normal});
 }
 
 void ContactFinder::keep_seats(Found& found, FoundBatch& batch) {
@@ -128,8 +138,8 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         const PairView view(scene, pairs[k]);
         found_[k].batch = &batch;
         if (meets_in_polygon(scene, pairs[k], rule)) {
-            meet(view, axes_of(view, most), most, found_[k], batch);
-            return;
+            if (rule.crushes) return meet_parts(view, most, found_[k], batch);
+            return meet(view, axes_of(view, most), most, found_[k], batch);
         }
         batch.pair.candidates.clear();
         const double apart = separation(view);
@@ -165,10 +175,12 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         FoundBatch& batch = batches_.own();
         found_[n].batch = &batch;
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
-        if (states_[k] == PairCache::State::polygon)
-            meet(PairView(scene, pairs[k]), cache_.axes(k), most, found_[n], batch);
-        else
+        if (states_[k] != PairCache::State::polygon)
             find_listed(scene, pairs[k], k, motion, {dt, margin, most}, found_[n], batch);
+        else if (rule.crushes)
+            meet_parts(PairView(scene, pairs[k]), most, found_[n], batch);
+        else
+            meet(PairView(scene, pairs[k]), cache_.axes(k), most, found_[n], batch);
     });
     // Lists are stored by one thread, in the order of the pairs: their places do not depend on the
     // threads.
@@ -237,7 +249,7 @@ void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs,
         const Found& found = found_[n];
         Contact* const first = out.data() + found.contact;
         if (found.corners.count > 0)
-            make_polygon_contacts(PairView(scene, pairs[pairs_to_measure_[n]]), rule, found.normal,
+            make_polygon_contacts(PairView(scene, pairs[pairs_to_measure_[n]]), rule,
                                   found.corners.of(found.batch->corners),
                                   first + found.candidates.count);
         if (found.seats.count > 0)
@@ -256,13 +268,21 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
                    std::vector<Contact>& out) {
     const PairView view(scene, pair);
     FoundBatch::Pair found;
+    std::vector<MetCorner> corners;
     const auto append_polygon = [&] {
-        const std::vector<PolygonCorner>& corners = found.polygon.corners;
+        for (const PolygonCorner& corner : found.polygon.corners)
+            corners.push_back({corner, found.polygon.normal});
         out.resize(out.size() + corners.size());
-        make_polygon_contacts(view, how, found.polygon.normal, corners,
-                              out.data() + (out.size() - corners.size()));
+        make_polygon_contacts(view, how, corners, out.data() + (out.size() - corners.size()));
     };
     if (meets_in_polygon(scene, pair, how)) {
+        if (how.crushes) {
+            find_part_polygons(view.shape_a.parts, view.shape_b.parts,
+                               {view.rotation_ab, view.translation_ab}, margin, found.parts,
+                               corners);
+            found.polygon.corners.clear();
+            return append_polygon();
+        }
         const SeparatingAxes axes = axes_of(view, margin);
         if (axes.widest() <= margin)
             find_polygon(view, axes, margin, found.clipping, found.polygon);

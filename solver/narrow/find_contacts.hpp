@@ -29,7 +29,8 @@ namespace ice {
 /// face has as many contacts as incident spheres, not as many as pairs of spheres.
 ///
 /// Convex floes that cannot be crushed meet as solids instead: their contacts are the corners of
-/// the polygon in which they meet along their separating axis (contact_polygon), at most four.
+/// the polygon in which they meet along their separating axis (contact_polygon), at most four. So
+/// do pieces of level ice, of which each convex part meets each of the other's (find_part_polygons).
 ///
 /// Convex bodies that overlap deeper than any contact of their spheres meet in that polygon, too;
 /// of other solids each seat that lies so deep in the other one is a contact (find_deep_seats).
@@ -67,11 +68,10 @@ private:
     // Results of a pair: a part of one thread's results.
     struct Found {
         const FoundBatch* batch = nullptr;
-        FoundPart candidates;        // that are contacts
-        FoundPart corners, seats;    // further contacts: corners of a polygon, or deep seats
-        Vec3 normal = Vec3::Zero();  // the polygon's
-        FoundPart spheres;           // newly listed
-        std::size_t contact = 0;     // where its contacts begin among those of all pairs
+        FoundPart candidates;      // that are contacts
+        FoundPart corners, seats;  // further contacts: corners of a polygon, or deep seats
+        FoundPart spheres;         // newly listed
+        std::size_t contact = 0;   // where its contacts begin among those of all pairs
     };
     // Time step [s], margin [m], and the gap up to which a pair's contacts count in the step [m].
     struct Within {
@@ -81,6 +81,7 @@ private:
     void begin_batches();
     static void meet(const PairView& view, const SeparatingAxes& axes, double most, Found& found,
                      FoundBatch& batch);
+    static void meet_parts(const PairView& view, double most, Found& found, FoundBatch& batch);
     // Contacts of row k from its neighbour list, which is made anew where its skin is used up.
     void find_listed(const Scene& scene, BodyPair pair, std::size_t k, const MotionBounds& motion,
                      const Within& within, Found& found, FoundBatch& batch);

@@ -7,6 +7,7 @@
 
 #include "solver/narrow/feature/contact_polygon.hpp"
 #include "solver/narrow/manifold/deep_seats.hpp"
+#include "solver/narrow/manifold/find_polygon.hpp"
 #include "solver/narrow/manifold/make_contacts.hpp"
 #include "solver/narrow/manifold/measure_spheres.hpp"
 #include "solver/narrow/manifold/reduce_manifold.hpp"
@@ -37,7 +38,7 @@ struct FoundPart {
 struct FoundBatch {
     std::vector<Candidate> candidates;  ///< that are contacts
     std::vector<SpherePair> spheres;    ///< newly listed
-    std::vector<PolygonCorner> corners;
+    std::vector<MetCorner> corners;
     std::vector<DeepSeat> seats;
 
     /// Of the pair at hand.
@@ -52,6 +53,7 @@ struct FoundBatch {
         std::vector<TypesRow> rows;
         ReductionWork reduction;
         ClippingWork clipping;
+        PartsWork parts;
         ContactsWork contacts;
     } pair;
 

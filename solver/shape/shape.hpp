@@ -14,6 +14,7 @@
 #include "solver/shape/face_regions.hpp"
 #include "solver/shape/mesh_edges.hpp"
 #include "solver/shape/normal_cone.hpp"
+#include "solver/shape/prism_parts.hpp"
 #include "solver/shape/side_planes.hpp"
 #include "solver/shape/solid.hpp"
 #include "solver/shape/solid_surface.hpp"
@@ -45,10 +46,13 @@ struct Shape {
     std::size_t sphere_count = 0;  ///< of the whole set, interior included
     ConvexBounds bounds;           ///< of mesh and spheres
     ConvexPiece convex;            ///< the mesh where it is convex, else empty; 2D: empty
-    SphereBlocks blocks;           ///< of `center`, for the search
-    SphereBlocks balls;            ///< the spheres without their faces, for the rule "centres"
-    double largest_radius = 0.0;   ///< [m]
-    double spacing = 0.0;          ///< nominal distance of the surface spheres [m]
+    /// The mesh in convex parts: of pieces of level ice, which meet each other as solids; else
+    /// empty.
+    std::vector<SolidPart> parts;
+    SphereBlocks blocks;          ///< of `center`, for the search
+    SphereBlocks balls;           ///< the spheres without their faces, for the rule "centres"
+    double largest_radius = 0.0;  ///< [m]
+    double spacing = 0.0;         ///< nominal distance of the surface spheres [m]
     /// Distance from its centre up to which a sphere represents the surface, 0.75 spacings [m].
     double patch_radius = 0.0;
     SidePlanes side_planes;  ///< at which the faces end within it

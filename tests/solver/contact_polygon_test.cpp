@@ -74,7 +74,7 @@ TEST_CASE("boxes on each other meet in the rectangle that they share", "[narrow]
     }
     // side planes have a slack of 0.1 mm, and what has not touched may come from beside by its gap
     CHECK(area_of(polygon) == Near(1.5 * 2.0).margin(5.0 * (1e-4 + std::max(gap, 0.0))));
-    std::set<std::uint32_t> ids;
+    std::set<std::uint64_t> ids;
     for (const PolygonCorner& c : polygon.corners) ids.insert(c.id);
     CHECK(ids.size() == 4);
 }

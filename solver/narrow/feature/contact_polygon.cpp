@@ -241,6 +241,27 @@ void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const Rela
         corner.point = ordered_product(pose.rotation, corner.point) + pose.translation;
 }
 
+void order_around(ContactPolygon& polygon) {
+    Vec3 middle = Vec3::Zero();
+    for (const PolygonCorner& corner : polygon.corners) middle += corner.point;
+    middle /= static_cast<double>(polygon.corners.size());
+    // two directions in the plane; the normal's least component is at most 0.58
+    Vec3::Index least = 0;
+    polygon.normal.cwiseAbs().minCoeff(&least);
+    const Vec3 x = polygon.normal.cross(Vec3(Vec3::Unit(least))), y = polygon.normal.cross(x);
+    // it grows with the angle from -2 to 2, as the angle does from -pi to pi
+    const auto turn = [&](const PolygonCorner& c) {
+        const double along = x.dot(c.point - middle), aside = y.dot(c.point - middle);
+        const double size = std::abs(along) + std::abs(aside);
+        if (size == 0.0) return 0.0;
+        return aside < 0.0 ? along / size - 1.0 : 1.0 - along / size;
+    };
+    std::sort(polygon.corners.begin(), polygon.corners.end(),
+              [&](const PolygonCorner& l, const PolygonCorner& r) {
+                  return std::tuple(turn(l), l.gap, l.id) < std::tuple(turn(r), r.gap, r.id);
+              });
+}
+
 void reduce_polygon(std::size_t count, ContactPolygon& polygon) {
     ICE_ASSERT(count > 2);
     std::vector<PolygonCorner>& corners = polygon.corners;

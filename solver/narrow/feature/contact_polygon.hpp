@@ -2,8 +2,10 @@
 /// Contact manifold of two convex pieces: where they meet along their separating axis.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "solver/narrow/feature/separating_axis.hpp"
@@ -28,9 +30,14 @@ struct PolygonTolerances {
 struct PolygonCorner {
     Vec3 point;  ///< midway between the surfaces, a's axes [m]
     double gap;  ///< along the axis, negative where the pieces overlap [m]
-    std::uint32_t
+    std::uint64_t
         id;  ///< by the features that meet there: the same corner keeps it from step to step
 };
+
+/// Orders corners by place with y and -y alike: mirror images are solved in the same order.
+inline auto place_key(const PolygonCorner& c) {
+    return std::tuple(c.point.x(), std::abs(c.point.y()), c.point.z(), c.gap, c.id);
+}
 
 /// The corners in which two pieces meet, and their common normal.
 struct ContactPolygon {
@@ -74,6 +81,9 @@ Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose&
 /// This many corners [-] carry nearly the same forces and moments as a polygon with more. Three
 /// carry no load outside their triangle; each further one costs a row in the contact solver.
 constexpr std::size_t kManifoldCorners = 4;
+
+/// Puts the corners of several polygons in one plane in order around their middle.
+void order_around(ContactPolygon& polygon);
 
 /// Removes the corner whose loss takes the least area until `count` remain; the deepest stays.
 /// @pre count > 2

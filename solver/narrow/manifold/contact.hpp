@@ -21,6 +21,9 @@ struct Contact {
     Patch patch;                      ///< the surface that presses here, for the bound (13)
     std::int32_t region;              ///< row of the hull's region_names; -1 between floes
     bool crushes_a;                   ///< the ice that is crushed is sphere_a's; else sphere_b's
+
+    /// Do solids meet that cannot be crushed? They have no spheres, and their force has no bound.
+    bool is_rigid() const { return sphere_a < 0; }
 };
 
 }  // namespace ice

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "common/base/assert.hpp"
 #include "solver/narrow/feature/deep_pair.hpp"
@@ -13,13 +12,14 @@
 namespace ice {
 
 bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule) {
-    if (rule.normal != NormalRule::surface || rule.crushes) return false;
+    if (rule.normal != NormalRule::surface) return false;
     if (pair.a == static_cast<std::int32_t>(kShip))
         return false;  // the loads are recorded by its spheres
-    const auto convex = [&](std::int32_t i) {
-        return !scene.shapes[static_cast<std::size_t>(scene.bodies.shape[i])].convex.empty();
+    const auto meets = [&](std::int32_t i) {
+        const Shape& shape = scene.shapes[static_cast<std::size_t>(scene.bodies.shape[i])];
+        return rule.crushes ? !shape.parts.empty() : !shape.convex.empty();
     };
-    return convex(pair.a) && convex(pair.b);
+    return meets(pair.a) && meets(pair.b);
 }
 
 void find_polygon(const PairView& view, const SeparatingAxes& axes, double most, ClippingWork& work,
@@ -28,28 +28,24 @@ void find_polygon(const PairView& view, const SeparatingAxes& axes, double most,
     make_contact_polygon(view.shape_a.convex, view.shape_b.convex,
                          {view.rotation_ab, view.translation_ab}, axes, most, work, polygon);
     reduce_polygon(kManifoldCorners, polygon);
-    // By place with y and -y alike: mirror images are solved in the same order.
-    std::sort(polygon.corners.begin(), polygon.corners.end(),
-              [](const PolygonCorner& l, const PolygonCorner& r) {
-                  const auto key = [](const PolygonCorner& c) {
-                      return std::tuple(c.point.x(), std::abs(c.point.y()), c.point.z(), c.gap,
-                                        c.id);
-                  };
-                  return key(l) < key(r);
-              });
+    std::sort(
+        polygon.corners.begin(), polygon.corners.end(),
+        [](const PolygonCorner& l, const PolygonCorner& r) { return place_key(l) < place_key(r); });
 }
 
-void make_polygon_contacts(const PairView& view, const ContactRule& rule, const Vec3& normal,
-                           std::span<const PolygonCorner> corners, Contact* out) {
+void make_polygon_contacts(const PairView& view, const ContactRule& rule,
+                           std::span<const MetCorner> corners, Contact* out) {
     const Mat3& rotation = view.scene.bodies.rotation[view.pair.a];
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
-    for (const PolygonCorner& corner : corners) {
+    const bool rigid = meets_in_polygon(view.scene, view.pair, rule);
+    for (const auto& [corner, normal] : corners) {
         Contact& contact = *out++;
         contact.a = view.pair.a;
         contact.b = view.pair.b;
         contact.sphere_a = contact.sphere_b = -1;
         // The warm start finds a corner again by the two features that meet in it.
-        contact.key = std::uint64_t{1} << 63 | corner.id;  // no sphere has this bit
+        // No sphere has the first bit, and a deep seat has the second one, too.
+        contact.key = std::uint64_t{1} << 63 | corner.id;
         contact.point = rotation * corner.point + view.scene.bodies.position[view.pair.a];
         contact.normal = rotation * normal;
         contact.gap = corner.gap;
@@ -57,7 +53,7 @@ void make_polygon_contacts(const PairView& view, const ContactRule& rule, const 
         contact.patch.depth = -corner.gap;
         contact.region = -1;
         contact.crushes_a = false;
-        if (!ship && !rule.crushes) continue;
+        if (rigid) continue;
         // Crushing and regions need spheres: those nearest to the corner lend share and patch.
         contact.sphere_a = nearest_sphere(view.shape_a, corner.point);
         contact.sphere_b = nearest_sphere(view.shape_b, view.to_b(corner.point));

@@ -97,6 +97,7 @@ double PairCache::seat_clearance_left(const Row& row, const PairView& view, doub
 }
 
 double PairCache::separation_of_solids(Row& row, const PairView& view, double enough) {
+    if (!is_convex_pair(view)) return separation(view, enough, row.axis);  // in several parts
     const ConvexPiece &a = view.shape_a.convex, &b = view.shape_b.convex;
     const RelativePose pose{view.rotation_ab, view.translation_ab};
     // the plane that separated them last mostly still does: one plane instead of all

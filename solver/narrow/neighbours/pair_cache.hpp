@@ -44,7 +44,7 @@ public:
     State state(std::size_t k, const Scene& scene, BodyPair pair, const MotionBounds& motion,
                 double dt, double margin, bool polygon);
 
-    /// The separating axes of row k's solids. @pre state() returned State::polygon
+    /// The separating axes of row k's solids. @pre state() returned State::polygon, both are convex
     const SeparatingAxes& axes(std::size_t k) const { return lists_.row(k).axes; }
 
     /// Spheres of row k that may touch; valid until the next keep() or carry_over().

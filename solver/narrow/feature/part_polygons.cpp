@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/feature/part_polygons.hpp"
+
+#include <algorithm>
+
+#include "common/math/ordered_products.hpp"
+
+namespace ice {
+
+namespace {
+
+// Parts that meet along one face have normals that are this near (cosine [-]). Larger joins faces
+// that are not one, smaller keeps four corners of each part.
+constexpr double kSameNormal = 1.0 - 1e-9;
+
+// Moves the corners that have the first one's normal to `out`, at most four of them: parts that
+// meet along one face of a body carry no more than the whole face does.
+void take_one_normal(PartsWork& work, std::vector<MetCorner>& out) {
+    auto& [clipping, polygon, corners] = work;
+    const Vec3 normal = corners.front().normal;
+    const auto rest = std::stable_partition(
+        corners.begin(), corners.end(),
+        [&](const MetCorner& c) { return c.normal.dot(normal) >= kSameNormal; });
+    polygon.normal = normal;
+    polygon.corners.clear();
+    for (auto c = corners.begin(); c != rest; ++c) polygon.corners.push_back(c->corner);
+    order_around(polygon);
+    reduce_polygon(kManifoldCorners, polygon);
+    for (const PolygonCorner& corner : polygon.corners) out.push_back({corner, normal});
+    corners.erase(corners.begin(), rest);
+}
+
+// Does the part lie beyond a cut of the other one? Then it meets the parts on that side.
+// @param pose  of `part` in the axes of `other`
+bool is_beyond_cut(const SolidPart& other, const SolidPart& part, const RelativePose& pose) {
+    return std::any_of(other.cuts.begin(), other.cuts.end(), [&](const SidePlane& cut) {
+        const Vec3 along = ordered_transposed(pose.rotation, cut.outward);
+        const double offset = cut.offset - ordered_dot(cut.outward, pose.translation);
+        for (std::size_t k = 0; k < part.solid.corners.size(); ++k)
+            if (ordered_dot(along, part.solid.corners[k]) <= offset) return false;
+        return true;
+    });
+}
+
+// Cosine of a face's normal and the reference's [-], 102 degrees, from which on the face is not the
+// incident one: cuts are missing among the faces, and a face that is nearly upright to the
+// reference has its corners anywhere. Larger lets such faces meet, smaller loses deep bodies.
+constexpr double kLeastFacing = -0.2;
+
+// Has the part a face that is turned against the reference's? Else a part beyond a cut has it.
+// @param n  the reference's normal in the part's axes
+bool faces(const SolidPart& part, const Vec3& n) {
+    if (part.cuts.empty()) return true;
+    for (std::size_t k = 0; k < part.solid.plane_count(); ++k)
+        if (ordered_dot(part.solid.normals[k], n) < kLeastFacing) return true;
+    return false;
+}
+
+}  // namespace
+
+void find_part_polygons(std::span<const SolidPart> a, std::span<const SolidPart> b,
+                        const RelativePose& pose, double most, PartsWork& work,
+                        std::vector<MetCorner>& out) {
+    auto& [clipping, polygon, corners] = work;
+    corners.clear();
+    const RelativePose back{pose.rotation.transpose(),
+                            -ordered_transposed(pose.rotation, pose.translation)};
+    std::uint64_t number = 0;  // of the pair of parts
+    for (const SolidPart& part_a : a)
+        for (const SolidPart& part_b : b) {
+            ++number;
+            const Vec3 apart =
+                ordered_product(pose.rotation, part_b.middle) + pose.translation - part_a.middle;
+            const double near = part_a.radius + part_b.radius + most;
+            if (ordered_dot(apart, apart) > near * near) continue;
+            if (is_beyond_cut(part_a, part_b, pose) || is_beyond_cut(part_b, part_a, back))
+                continue;
+            const SeparatingAxes axes = find_axes(part_a.solid, part_b.solid, pose, most);
+            if (axes.widest() > most) continue;
+            const Vec3 n = axis_normal(part_a.solid, part_b.solid, pose, axes);
+            if (!faces(part_b, ordered_transposed(pose.rotation, n)) || !faces(part_a, -n))
+                continue;
+            make_contact_polygon(part_a.solid, part_b.solid, pose, axes, most, clipping, polygon);
+            for (PolygonCorner& corner : polygon.corners) {
+                corner.id |= number << 32;
+                corners.push_back({corner, polygon.normal});
+            }
+        }
+    const auto first = std::ssize(out);
+    while (!corners.empty()) take_one_normal(work, out);
+    std::sort(out.begin() + first, out.end(), [](const MetCorner& l, const MetCorner& r) {
+        return place_key(l.corner) < place_key(r.corner);
+    });
+}
+
+}  // namespace ice

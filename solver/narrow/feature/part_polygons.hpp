@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Contact manifold of two bodies in convex parts: the polygons in which the parts meet.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/narrow/feature/contact_polygon.hpp"
+#include "solver/shape/prism_parts.hpp"
+
+namespace ice {
+
+/// A corner of a polygon in which two bodies meet.
+struct MetCorner {
+    PolygonCorner corner;
+    Vec3 normal;  ///< of its polygon: unit, from a to b, a's axes
+};
+
+/// Work memory of find_part_polygons, which keeps its capacity between pairs.
+struct PartsWork {
+    ClippingWork clipping;
+    ContactPolygon polygon;          ///< of two parts, then of all with one normal
+    std::vector<MetCorner> corners;  ///< of all parts
+};
+
+/// The corners of the polygons in which two bodies meet (make_contact_polygon), each convex part
+/// with each, as far as their gap is at most `most` [m]; of those with one normal at most four.
+///
+/// Parts that meet in one face of a body carry no more than the whole face does; a cut between two
+/// parts has no corners. Bodies without parts have none.
+/// @param pose  of b in a's axes
+/// @param out   appended to, by place, y and -y alike
+void find_part_polygons(std::span<const SolidPart> a, std::span<const SolidPart> b,
+                        const RelativePose& pose, double most, PartsWork& work,
+                        std::vector<MetCorner>& out);
+
+}  // namespace ice
