@@ -8,8 +8,9 @@
 
 namespace ice {
 
-/// A polygon cut into convex ones along diagonals, as corners of the outline, anticlockwise: no
-/// corner is added. At most four times as many as the fewest (Hertel and Mehlhorn, 1983, by CGAL).
+/// A polygon cut along diagonals into the fewest convex ones, as corners of the outline,
+/// anticlockwise: no corner is added. Cost: the fourth power of the number of corners (Greene, The
+/// decomposition of polygons into convex parts, 1983, by CGAL).
 ///
 /// @param outline  anticlockwise, without repeating the first corner
 /// @return the outline alone where it is convex; nothing where it is not simple

@@ -247,9 +247,10 @@ std::vector<Loop> shrunk(const Loop& loop, double by, double smallest, double ne
     for (const Part& part : parts_of(tree)) {
         cl::Path path = to_lattice(part.outer);
         cl::CleanPolygon(path, nearest / kLattice);
-        Loop clean = from_lattice(path);
-        if (!part.holes.empty() || clean.size() < 3 || is_too_small(clean, smallest)) continue;
-        out.push_back(std::move(clean));
+        if (!part.holes.empty() || path.size() < 3) continue;
+        // narrow places may cross once corners are gone: there the loop becomes two
+        for (Part& simple : combine({from_lattice(path)}, {}, cl::ctUnion))
+            if (!is_too_small(simple.outer, smallest)) out.push_back(std::move(simple.outer));
     }
     return out;
 }

@@ -16,8 +16,8 @@ namespace ice {
 // thickness. Larger makes more brash, smaller makes pieces that hold few spheres.
 constexpr double kSmallestPiece = 0.5;
 
-// Least distance of an outline's corners [m]: nearer ones would each get a sphere in a corner. Larger
-// moves outlines by up to as much.
+// Least distance of an outline's corners [m]: nearer ones would each get a sphere in a corner.
+// Larger moves outlines by up to as much.
 constexpr double kNearest = 1e-3;
 
 // Breaking load of ice that never bends [N]; time [s] at which a piece in the scene leaves it.

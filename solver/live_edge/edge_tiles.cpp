@@ -14,6 +14,10 @@ namespace {
 // with a small cut for whole, which then has no tile; 0 lays tiles around rounding.
 constexpr double kWhole = 1e-6;
 
+// An edge this near to a cell counts as one in it, in cells [-]: rounding to the lattice. Larger
+// cuts cells that no edge touches; 0 could take a cell for whole that an edge along its side cuts.
+constexpr double kNearCell = 1e-6;
+
 using Box = Eigen::AlignedBox2d;
 
 // The cells that a box touches, and one more around them.
@@ -82,7 +86,7 @@ private:
                 const Vec2 &p = loop[k], &q = loop[(k + 1) % loop.size()];
                 std::array<std::int64_t, 2> low, high;
                 for (int d = 0; d < 2; ++d) {
-                    const double beside = kWhole * grid_.cell;
+                    const double beside = kNearCell * grid_.cell;
                     low[d] = index_of(std::min(p[d], q[d]) - beside, d) - first_[d];
                     high[d] = index_of(std::max(p[d], q[d]) + beside, d) - first_[d];
                     low[d] = std::max(low[d], std::int64_t{0});

@@ -267,7 +267,7 @@ EdgeBody LiveEdge::kind_of(bool is_tile) const {
 std::vector<Loop> LiveEdge::bodies_of(const Loop& part) const {
     if (is_strip_) return strip_bodies(part, gap_, kSmallestPiece * thickness_);
     std::vector<Loop> out;
-    // Corners that half the gap makes needless are left out: the outline stays within the gap.
+    // Corners that change the outline by less than half the gap are left out.
     const double half = 0.5 * gap_;
     for (Loop& loop : shrunk(part, half, kSmallestPiece * thickness_, std::max(kNearest, half)))
         if (can_be_filled(loop)) out.push_back(std::move(loop));

@@ -43,8 +43,8 @@ struct IceAreas {
 ///
 /// In 2D the sheet is a strip (strip.hpp): areas are lengths, per metre of breadth.
 ///
-/// Pieces meet each other as solids that cannot be crushed (Shape::parts): what presses them together
-/// comes from the ship or from the held edge, and there they crush.
+/// Pieces meet each other as solids that cannot be crushed (Shape::parts): what presses them
+/// together comes from the ship or from the held edge, and there they crush.
 ///
 /// Bodies come from a fixed number of slots; floes further astern than half a ship's length, or the
 /// last one where no slot is left, are taken out of the scene.

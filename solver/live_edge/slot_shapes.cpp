@@ -5,6 +5,7 @@
 
 #include "common/base/error.hpp"
 #include "solver/live_edge/edge_plan.hpp"
+#include "solver/live_edge/prism_parts.hpp"
 #include "solver/live_edge/strip.hpp"
 
 namespace ice {

@@ -29,8 +29,9 @@ namespace ice {
 /// face has as many contacts as incident spheres, not as many as pairs of spheres.
 ///
 /// Convex floes that cannot be crushed meet as solids instead: their contacts are the corners of
-/// the polygon in which they meet along their separating axis (contact_polygon), at most four. So
-/// do pieces of level ice, of which each convex part meets each of the other's (find_part_polygons).
+/// the polygon in which they meet along their separating axis (contact_polygon), at most four.
+/// Pieces of level ice do so, too: each convex part of one meets each part of the other
+/// (find_part_polygons).
 ///
 /// Convex bodies that overlap deeper than any contact of their spheres meet in that polygon, too;
 /// of other solids each seat that lies so deep in the other one is a contact (find_deep_seats).

@@ -20,7 +20,8 @@ set(tools preprocess solver postprocess)
 # One tool may look into another here alone: a folder and the header. Level ice is cut and filled
 # while the solver runs.
 set(bridges "solver/live_edge preprocess/field/fill_prism.hpp"
-  "solver/live_edge preprocess/field/make_prism.hpp")
+  "solver/live_edge preprocess/field/make_prism.hpp"
+  "solver/live_edge preprocess/slice/convex_parts.hpp")
 
 # Third-party headers and the files that may include them: pairs of regular expressions. Tests may
 # include all of them but those whose home is in tests/: OpenVDB is no dependency of the project,

@@ -38,8 +38,7 @@ double sum_of(const std::vector<Loop>& loops) {
     return sum;
 }
 
-// Area of the regular polygon's half in place of a half disc: corners every 10 degrees.
-double half_disc(double radius) { return 9.0 * radius * radius * std::sin(kPi / 18.0); }
+double half_disc(double radius) { return 0.5 * kPi * radius * radius; }
 
 // Ice must be gone from where a piece was.
 double left_in(const IceSheet& sheet, const Loop& piece) {
@@ -111,8 +110,8 @@ TEST_CASE("a second cusp beside the first takes what is left there", "[level_ice
     const auto broken = sheet.break_off(crack_outline({0, 4}, {1, 0}, 4.0));
     REQUIRE(broken.pieces.size() == 1);
     const double lens = 0.5 * (2.0 * 16.0 * std::acos(0.5) - 2.0 * std::sqrt(64.0 - 16.0));
-    // the polygons cross their circles, by 1 % of the radius at most: over 8 m of arc that is 2 % of
-    // the area at most
+    // the polygons cross their circles, by 1 % of the radius at most: over 8 m of arc that is 2 %
+    // of the area at most
     CHECK(area_of(broken.pieces[0]) == Near(0.5 * kPi * 16.0 - lens).epsilon(0.03));
     CHECK(is_simple(sheet.loops()));
 }

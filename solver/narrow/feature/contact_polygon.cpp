@@ -242,6 +242,7 @@ void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const Rela
 }
 
 void order_around(ContactPolygon& polygon) {
+    ICE_ASSERT(!polygon.corners.empty());
     Vec3 middle = Vec3::Zero();
     for (const PolygonCorner& corner : polygon.corners) middle += corner.point;
     middle /= static_cast<double>(polygon.corners.size());

@@ -82,7 +82,8 @@ Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose&
 /// carry no load outside their triangle; each further one costs a row in the contact solver.
 constexpr std::size_t kManifoldCorners = 4;
 
-/// Puts the corners of several polygons in one plane in order around their middle.
+/// Puts the corners of several polygons with one normal in order around their middle.
+/// @pre there are some
 void order_around(ContactPolygon& polygon);
 
 /// Removes the corner whose loss takes the least area until `count` remain; the deepest stays.

@@ -13,17 +13,32 @@ namespace {
 // that are not one, smaller keeps four corners of each part.
 constexpr double kSameNormal = 1.0 - 1e-9;
 
+// Corners nearer to each other are one [m]: two parts have the corners at the end of their cut in
+// common. Larger joins corners of small faces, smaller keeps two contacts at one point.
+constexpr double kSamePoint = 1e-6;
+
+// Of two corners at one point the deeper one is kept.
+void add_once(const PolygonCorner& corner, std::vector<PolygonCorner>& out) {
+    const auto same = std::find_if(out.begin(), out.end(), [&](const PolygonCorner& c) {
+        return (c.point - corner.point).squaredNorm() < kSamePoint * kSamePoint;
+    });
+    if (same == out.end())
+        out.push_back(corner);
+    else if (corner.gap < same->gap)
+        *same = corner;
+}
+
 // Moves the corners that have the first one's normal to `out`, at most four of them: parts that
 // meet along one face of a body carry no more than the whole face does.
 void take_one_normal(PartsWork& work, std::vector<MetCorner>& out) {
     auto& [clipping, polygon, corners] = work;
     const Vec3 normal = corners.front().normal;
     const auto rest = std::stable_partition(
-        corners.begin(), corners.end(),
+        corners.begin() + 1, corners.end(),
         [&](const MetCorner& c) { return c.normal.dot(normal) >= kSameNormal; });
     polygon.normal = normal;
     polygon.corners.clear();
-    for (auto c = corners.begin(); c != rest; ++c) polygon.corners.push_back(c->corner);
+    for (auto c = corners.begin(); c != rest; ++c) add_once(c->corner, polygon.corners);
     order_around(polygon);
     reduce_polygon(kManifoldCorners, polygon);
     for (const PolygonCorner& corner : polygon.corners) out.push_back({corner, normal});
@@ -43,17 +58,20 @@ bool is_beyond_cut(const SolidPart& other, const SolidPart& part, const Relative
 }
 
 // Cosine of a face's normal and the reference's [-], 102 degrees, from which on the face is not the
-// incident one: cuts are missing among the faces, and a face that is nearly upright to the
-// reference has its corners anywhere. Larger lets such faces meet, smaller loses deep bodies.
+// incident one where a cut is turned against the reference more: clipped and measured along the
+// reference's normal, a face nearly upright to it has corners anywhere. Larger lets such faces
+// meet, smaller loses deep bodies.
 constexpr double kLeastFacing = -0.2;
 
 // Has the part a face that is turned against the reference's? Else a part beyond a cut has it.
 // @param n  the reference's normal in the part's axes
 bool faces(const SolidPart& part, const Vec3& n) {
-    if (part.cuts.empty()) return true;
+    double least = 1.0;
     for (std::size_t k = 0; k < part.solid.plane_count(); ++k)
-        if (ordered_dot(part.solid.normals[k], n) < kLeastFacing) return true;
-    return false;
+        least = std::min(least, ordered_dot(part.solid.normals[k], n));
+    return least < kLeastFacing ||
+           std::none_of(part.cuts.begin(), part.cuts.end(),
+                        [&](const SidePlane& cut) { return ordered_dot(cut.outward, n) < least; });
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solver/narrow/feature/contact_polygon.hpp"
-#include "solver/shape/prism_parts.hpp"
+#include "solver/shape/solid_part.hpp"
 
 namespace ice {
 
@@ -28,8 +28,9 @@ struct PartsWork {
 ///
 /// Parts that meet in one face of a body carry no more than the whole face does; a cut between two
 /// parts has no corners. Bodies without parts have none.
+/// Where cuts lie decides which corners there are: mirror images may have others.
 /// @param pose  of b in a's axes
-/// @param out   appended to, by place, y and -y alike
+/// @param out   appended to, by place
 void find_part_polygons(std::span<const SolidPart> a, std::span<const SolidPart> b,
                         const RelativePose& pose, double most, PartsWork& work,
                         std::vector<MetCorner>& out);

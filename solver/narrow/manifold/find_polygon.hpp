@@ -14,8 +14,8 @@
 namespace ice {
 
 /// Are the contacts of this pair the corners of the polygons in which the two solids meet? Floes
-/// that are convex and cannot be crushed, and pieces of level ice, which crush at the ship and at
-/// held ice only: then no contact needs a sphere's share of the surface.
+/// that are convex and cannot be crushed, and pieces of level ice, which are crushed only by the
+/// ship and at held ice: then no contact needs a sphere's share of the surface.
 bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule);
 
 /// Finds their contacts within `most` [m], at most four; no corners where every gap is wider.

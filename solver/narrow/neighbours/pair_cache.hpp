@@ -34,7 +34,7 @@ public:
     /// State of a pair for the coming step.
     enum class State {
         separated,  ///< the bodies cannot touch
-        polygon,    ///< they may touch, along axes(k)
+        polygon,    ///< they may touch, as solids
         listed,     ///< they may touch, with the spheres of listed(k)
         stale       ///< the list is no longer valid
     };
@@ -80,7 +80,7 @@ private:
         // [m], [rad].
         double path_clearance = 0.0, path_stale = 0.0, rotation_stale = 0.0;
         std::size_t axis = 0;  // of separation(), when last compared
-        SeparatingAxes axes;   // instead of it where the solids meet in a polygon
+        SeparatingAxes axes;   // instead of it where two convex solids meet in a polygon
         bool deep = false;
         // Pose of b when its seats were last searched, and the relative motion from there before
         // one can lie deep [m]; negative: they must be searched in any case.
@@ -89,7 +89,8 @@ private:
         double seat_clearance = -1.0;
         double seat_clearance_left = 0.0;  // what was left of it when last compared [m]
     };
-    // A lower bound of the distance of row k's solids; exact where it is at most `enough` [m].
+    // A lower bound of the distance of row k's solids; of two convex ones exact where it is at most
+    // `enough` [m].
     static double separation_of_solids(Row& row, const PairView& view, double enough);
     static void set_clearances(Row& row, BodyPair pair, const MotionBounds& motion, double gone,
                                double turned);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/shape/prism_parts.hpp"
+#include "solver/live_edge/prism_parts.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hollow prisms in convex parts: they meet like the whole solids, and cuts between parts are no
 // surface.
-#include "solver/shape/prism_parts.hpp"
+#include "solver/narrow/feature/part_polygons.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,8 +12,10 @@
 
 #include "preprocess/field/make_prism.hpp"
 #include "preprocess/slice/convex_parts.hpp"
-#include "solver/narrow/feature/part_polygons.hpp"
+#include "solver/live_edge/prism_parts.hpp"
+#include "solver/narrow/find_contacts.hpp"
 #include "tests/support/dice.hpp"
+#include "tests/support/make_worlds.hpp"
 #include "tests/support/tolerance.hpp"
 
 using namespace ice;
@@ -140,6 +142,19 @@ TEST_CASE("a box in a hollow corner meets both sides, at the true gaps", "[shape
     CHECK(along_y == 4);
 }
 
+TEST_CASE("a sharp horn meets a face with its tip", "[shape][analytic]") {
+    // 15 degrees: no face of the horn is turned against the box's by more than 8
+    const Loop horned{{-2, -1}, {0, -1}, {0, -0.13}, {1, 0}, {0, 0.13}, {0, 1}, {-2, 1}};
+    const double gap = GENERATE(1e-4, -1e-3);
+    const auto met = meet(horned, box(1, 1), upright(1.5 + gap, 0.1), 1e-3);
+    REQUIRE(met.size() == 2);
+    for (const auto& [corner, normal] : met) {
+        CHECK((normal - Vec3::UnitX()).norm() < tolerance(kRounding));
+        CHECK(corner.gap == Near(gap).margin(kRounding));
+        CHECK(std::abs(corner.point.y()) < 1e-3);
+    }
+}
+
 TEST_CASE("a box that slides over cuts meets nothing along its way", "[shape][analytic]") {
     // below the fork, from side to side, past the ends of both cuts
     const double gap = 1e-4;
@@ -163,6 +178,34 @@ TEST_CASE("a box that slides over cuts meets nothing along its way", "[shape][an
             CHECK(normal.z() > 0.99);
         }
     }
+}
+
+TEST_CASE("pieces of level ice are rigid to each other, and crushed ice is left out",
+          "[narrow][analytic]") {
+    const Vec3 size(2, 2, 1);
+    const double deep = 0.01;  // [m]
+    World w = test::plate_world(test::empty_space(0.01), Vec3(4, 2, 1), 0.25, 0.5, 100.0);
+    const auto row = test::add_shape(w, test::make_box_set(size, 0.25, 0.5));
+    w.scene.shapes[static_cast<std::size_t>(row)].parts = prism_parts(box(2, 2), 1.0);
+    for (int k = 0; k < 2; ++k)
+        add_floe(w.scene, row, 900.0, k * Vec3(2.0 - deep, 0, 0), Quaternion::Identity(), 0, false);
+    const std::vector<BodyPair> pairs{{1, 2}};
+    const ContactRule rule(NormalRule::surface, true);
+    std::vector<Contact> contacts;
+    ContactFinder().find(w.scene, pairs, rule, 0.01, 1e-3, contacts);
+    REQUIRE(contacts.size() == 4);
+    for (const Contact& c : contacts) {
+        CHECK(c.is_rigid());
+        CHECK(c.normal == Vec3::UnitX());
+        CHECK(c.gap == Near(-deep).margin(kRounding));
+    }
+    // the ship has crushed the first one by as much: they touch
+    const std::size_t spheres = w.scene.shapes[static_cast<std::size_t>(row)].center.size();
+    for (std::size_t k = 0; k < spheres; ++k)
+        w.scene.crushed.crush(1, static_cast<std::int32_t>(k), spheres, Vec3(-deep, 0, 0));
+    ContactFinder().find(w.scene, pairs, rule, 0.01, 1e-3, contacts);
+    REQUIRE(contacts.size() == 4);
+    for (const Contact& c : contacts) CHECK(c.gap == Near(0.0).margin(kRounding));
 }
 
 TEST_CASE("crescents have contacts where they overlap, and none where they are apart",
