@@ -267,9 +267,10 @@ EdgeBody LiveEdge::kind_of(bool is_tile) const {
 std::vector<Loop> LiveEdge::bodies_of(const Loop& part) const {
     if (is_strip_) return strip_bodies(part, gap_, kSmallestPiece * thickness_);
     std::vector<Loop> out;
-    // Corners that change the outline by less than half the gap are left out.
+    // Corners that change the outline by less than a quarter of the gap are left out: of two
+    // neighbours neither comes to the other.
     const double half = 0.5 * gap_;
-    for (Loop& loop : shrunk(part, half, kSmallestPiece * thickness_, std::max(kNearest, half)))
+    for (Loop& loop : shrunk(part, half, kSmallestPiece * thickness_, std::max(kNearest, 0.25 * gap_)))
         if (can_be_filled(loop)) out.push_back(std::move(loop));
     return out;
 }

@@ -28,6 +28,7 @@ std::size_t press_at_random(int loads) {
         std::size_t seen = 0;
         for (; done < loads && w.edge.pieces().size() < 100; ++done) {
             const auto tiles = tiles_of(w.edge, w.scene.bodies);
+            CAPTURE(done, w.edge.sheet().area(), w.edge.pieces().size());
             REQUIRE_FALSE(tiles.empty());
             const std::int32_t tile = tiles[pick(tiles.size())];
             const double turn =
