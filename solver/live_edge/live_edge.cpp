@@ -270,7 +270,8 @@ std::vector<Loop> LiveEdge::bodies_of(const Loop& part) const {
     // Corners that change the outline by less than a quarter of the gap are left out: of two
     // neighbours neither comes to the other.
     const double half = 0.5 * gap_;
-    for (Loop& loop : shrunk(part, half, kSmallestPiece * thickness_, std::max(kNearest, 0.25 * gap_)))
+    for (Loop& loop :
+         shrunk(part, half, kSmallestPiece * thickness_, std::max(kNearest, 0.25 * gap_)))
         if (can_be_filled(loop)) out.push_back(std::move(loop));
     return out;
 }
