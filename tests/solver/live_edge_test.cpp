@@ -149,8 +149,8 @@ TEST_CASE("new ice at the edge is crushed as deep as the ice before it",
         if (!due || w.edge.changed().empty()) continue;
         ++renewals;
         CAPTURE(w.time, then);
-        // a step's way of the ship, 16 mm, and what new spheres differ by from the old ones: a
-        // notch ends between two spheres
+        // A step's way of the ship, 16 mm, and the difference of new spheres from the old ones: a
+        // notch ends between two spheres. The largest is 21 mm, of a corner crushed by 37 mm.
         CHECK(deepest(w.edge.changed()) < then + 0.025);
     }
     CHECK(renewals > 15);
