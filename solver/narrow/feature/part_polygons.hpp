@@ -23,9 +23,9 @@ struct PartsWork {
     std::vector<MetCorner> corners;  ///< of all parts
 };
 
-/// Finds the corners of the polygons in which two bodies meet. Each convex part of a meets each part
-/// of b (make_contact_polygon). Corners with a gap of more than `most` [m] are left out. At most
-/// four corners with the same normal are kept.
+/// Finds the corners of the polygons in which two bodies meet. Each convex part of a meets each
+/// part of b (make_contact_polygon). Corners with a gap of more than `most` [m] are left out. At
+/// most four corners with the same normal are kept.
 ///
 /// Parts that meet in one face of a body carry no more than the whole face does; a cut between two
 /// parts has no corners. Bodies without parts have none.
