@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/base/parallel.hpp"
+
 namespace ice {
 
 namespace {
@@ -18,7 +20,20 @@ constexpr double kWhole = 1e-6;
 // cuts cells that no edge touches; 0 could take a cell for whole that an edge along its side cuts.
 constexpr double kNearCell = 1e-6;
 
+// Columns of cells whose ice is taken from the sheet at once [-]. More read more corners for each
+// cell, fewer the whole sheet more often.
+constexpr std::int64_t kBand = 8;
+
 using Box = Eigen::AlignedBox2d;
+
+// From its corner with the smallest x, then y: a tile is recognized by its corners, which begin at
+// the same one however it was cut.
+void begin_at_first(Loop& loop) {
+    const auto first = std::min_element(loop.begin(), loop.end(), [](const Vec2& l, const Vec2& r) {
+        return std::pair(l.x(), l.y()) < std::pair(r.x(), r.y());
+    });
+    std::rotate(loop.begin(), first, loop.end());
+}
 
 // The cells that a box touches, and one more around them.
 class Cells {
@@ -31,7 +46,11 @@ public:
         parts_.resize(static_cast<std::size_t>(count_[0] * count_[1]));
         whole_.resize(parts_.size(), 0);
         const std::vector<std::uint8_t> crossed = cells_of_edges(sheet);
-        for (std::int64_t i = 0; i < count_[0]; ++i) fill_column(sheet, crossed, i);
+        // Bands begin at the same cells wherever the reach is: a cell's corners stay the same.
+        const std::int64_t first = band_of(first_[0]), last = band_of(first_[0] + count_[0] - 1);
+        parallel_tasks(static_cast<std::size_t>(last - first + 1), true, [&](std::size_t k) {
+            fill_band(sheet, crossed, first + static_cast<std::int64_t>(k));
+        });
     }
 
     void join_slivers(const std::function<bool(const Loop&)>& can_be_filled) {
@@ -98,7 +117,20 @@ private:
         return out;
     }
 
-    // the sheet's many corners are read once for each column, not for each cell
+    static std::int64_t band_of(std::int64_t column) {
+        return (column - (column < 0 ? kBand - 1 : 0)) / kBand;
+    }
+
+    // the sheet's many corners are read once for each band, not for each cell
+    void fill_band(const IceSheet& sheet, const std::vector<std::uint8_t>& crossed,
+                   std::int64_t band) {
+        const std::int64_t begin = std::max(kBand * band - first_[0], std::int64_t{0}),
+                           end = std::min(kBand * (band + 1) - first_[0], count_[0]);
+        const std::int64_t from = kBand * band - first_[0];
+        const IceSheet part = sheet.in_box({corner(from, 0), corner(from + kBand, count_[1])});
+        for (std::int64_t i = begin; i < end; ++i) fill_column(part, crossed, i);
+    }
+
     void fill_column(const IceSheet& sheet, const std::vector<std::uint8_t>& crossed,
                      std::int64_t i) {
         const Box box(corner(i, 0), corner(i + 1, count_[1]));
@@ -116,6 +148,8 @@ private:
                                                                  : sheet.contains(cell.center());
             if (whole_[row(i, j)]) parts(i, j) = {on_lattice(loop_of(cell))};
         }
+        for (std::int64_t j = 0; j < count_[1]; ++j)
+            for (Loop& part : parts(i, j)) begin_at_first(part);
     }
 
     void join(const Loop& sliver, std::int64_t i, std::int64_t j) {
@@ -127,6 +161,7 @@ private:
                 Loop both = joined(part, sliver);
                 if (both.empty()) continue;
                 part = std::move(both);
+                begin_at_first(part);
                 return;
             }
         }
@@ -152,16 +187,7 @@ std::vector<Loop> edge_tiles(const IceSheet& sheet, const EdgeGrid& grid, const 
                              const std::function<bool(const Loop&)>& can_be_filled) {
     Cells cells(sheet, grid, reach);
     cells.join_slivers(can_be_filled);
-    std::vector<Loop> tiles = cells.met();
-    for (Loop& tile : tiles) {
-        // A tile is recognized by its corners, which begin at the same one however it was cut.
-        const auto first =
-            std::min_element(tile.begin(), tile.end(), [](const Vec2& l, const Vec2& r) {
-                return std::pair(l.x(), l.y()) < std::pair(r.x(), r.y());
-            });
-        std::rotate(tile.begin(), first, tile.end());
-    }
-    return tiles;
+    return cells.met();
 }
 
 }  // namespace ice

@@ -26,16 +26,31 @@ constexpr double kRestLength = 8.0;
 
 }  // namespace
 
+bool LiveEdge::Precedes::operator()(const Loop& l, const Loop& r) const {
+    return std::lexicographical_compare(
+        l.begin(), l.end(), r.begin(), r.end(), [](const Vec2& p, const Vec2& q) {
+            return std::pair(p.x(), p.y()) < std::pair(q.x(), q.y());
+        });
+}
+
 // Tiles that stay as they are keep their bodies and crushed depths.
 void LiveEdge::lay_tiles(const Scene& scene, Plan& plan) {
-    std::vector<Loop> wanted;
+    auto last = std::exchange(cell_bodies_, {});
+    const auto bodies = [&](const Loop& part) -> const std::vector<Loop>& {
+        const auto known = cell_bodies_.find(part);
+        if (known != cell_bodies_.end()) return known->second;
+        auto kept = last.extract(part);
+        return kept.empty() ? cell_bodies_.emplace(part, bodies_of(part)).first->second
+                            : cell_bodies_.insert(std::move(kept)).position->second;
+    };
     const auto tiles = is_strip_
                            ? strip_tiles(sheet_, extent_.min().x(), radius_)
                            : edge_tiles(sheet_, {extent_.min(), radius_}, reach(scene),
-                                        [&](const Loop& part) { return !bodies_of(part).empty(); });
+                                        [&](const Loop& part) { return !bodies(part).empty(); });
+    std::vector<Loop> wanted;
     for (const Loop& tile : tiles)
         // a tile whose outline is unchanged stays with its body, its notches and its contacts
-        for (Loop& body : bodies_of(tile)) wanted.push_back(std::move(body));
+        wanted.insert(wanted.end(), bodies(tile).begin(), bodies(tile).end());
     for (std::size_t k = 0; k < slots_.size(); ++k) {
         Slot& slot = slots_[k];
         if (slot.use != Use::tile) continue;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "solver/case/case.hpp"
@@ -43,8 +44,8 @@ struct IceAreas {
 ///
 /// In 2D the sheet is a strip (strip.hpp): areas are lengths, per metre of breadth.
 ///
-/// Pieces meet each other as solids that cannot be crushed (Shape::parts): what presses them
-/// together comes from the ship or from the held edge, and there they crush.
+/// Pieces and tiles meet each other as solids that cannot be crushed (Shape::parts): what presses
+/// them together comes from the ship, and there they crush.
 ///
 /// Bodies come from a fixed number of slots; floes further astern than half a ship's length, or the
 /// last one where no slot is left, are taken out of the scene.
@@ -131,6 +132,10 @@ private:
         Loop outline;            // of the body, as it was laid [m]
         std::int64_t piece = 0;  // its number
     };
+    // Of the outlines' corners in turn, by x, then y.
+    struct Precedes {
+        bool operator()(const Loop& l, const Loop& r) const;
+    };
     // A crack that the last step's loads opened.
     struct Crack {
         Vec2 at, inwards;     // ice's axes: place [m]; unit vector along the push
@@ -184,6 +189,8 @@ private:
 
     Vec2 drifted_ = Vec2::Zero();  // from the world's axes to the ice's, now; no state
     std::vector<EdgeLoad> loads_;  // memory of find()
+    // Results of bodies_of() for the cells of the last lay_tiles(): most are the next one's, too.
+    std::map<Loop, std::vector<Loop>, Precedes> cell_bodies_;
     std::vector<std::int32_t> changed_;
     GonePieces gone_pieces_;
 };

@@ -41,7 +41,7 @@ std::optional<Shape> shape_of(const Loop& outline, const PrismSpec& prism, EdgeB
         if (as == EdgeBody::strip)
             return build_shape(fill_strip(strip_length(outline), prism), true);
         Shape shape = build_shape(fill_prism(centred, prism), true);
-        if (as == EdgeBody::piece) shape.parts = prism_parts(centred, prism.thickness);
+        shape.parts = prism_parts(centred, prism.thickness);
         return shape;
     } catch (const Error&) {
         return std::nullopt;

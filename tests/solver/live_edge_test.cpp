@@ -195,8 +195,9 @@ TEST_CASE("level ice that drifts past a ship is a ship that goes through level i
     World rests = make_world(p);
     rests.scene.water.current = Vec3(-0.8, 0.0, 0.0);
     double most = 0.0;
-    // rigid pieces on each other: rounding grows with each impact, to 1e-5 of the force at 2.9 s
-    while (goes.time < 2.8) {
+    // until two pieces are on their way: at 2.8 s rounding sends the solver of a prescribed ship
+    // another way to its tolerance, and forces differ by 4e-6
+    while (goes.time < 2.7) {
         step(goes);
         step(rests);
         const auto [normal, tangent] = ship_on_ice(goes);
@@ -204,7 +205,7 @@ TEST_CASE("level ice that drifts past a ship is a ship that goes through level i
         most = std::max(most, (normal + tangent).norm());
         CAPTURE(goes.time, free);
         // rounding of places, over the crushed depths of millimetres that give the forces
-        REQUIRE((normal + tangent - normal_2 - tangent_2).norm() <= tolerance(1e-6) * (1.0 + most));
+        REQUIRE((normal + tangent - normal_2 - tangent_2).norm() <= tolerance(1e-9) * (1.0 + most));
         REQUIRE(goes.edge.pieces().size() == rests.edge.pieces().size());
     }
     CHECK(goes.edge.pieces().size() > 1);
