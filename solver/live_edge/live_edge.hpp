@@ -44,8 +44,8 @@ struct IceAreas {
 ///
 /// In 2D the sheet is a strip (strip.hpp): areas are lengths, per metre of breadth.
 ///
-/// Pieces and tiles meet each other as solids that cannot be crushed (Shape::parts): what presses
-/// them together comes from the ship, and there they crush.
+/// In 3D pieces and tiles meet each other as solids that cannot be crushed (Shape::parts): what
+/// presses them together comes from the ship, and there they crush.
 ///
 /// Bodies come from a fixed number of slots; floes further astern than half a ship's length, or the
 /// last one where no slot is left, are taken out of the scene.

@@ -13,7 +13,7 @@ namespace ice {
 
 namespace {
 
-// Ice that was crushed at a corner of either body, by the ship, is gone [m].
+// Depth of the ice that was crushed at a corner of either body, and is gone [m].
 double depth_crushed_of_both(const PairView& view, const PolygonCorner& corner, const Vec3& n) {
     const CrushedIce& crushed = view.scene.crushed;
     double depth = 0.0;
