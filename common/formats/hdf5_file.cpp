@@ -36,6 +36,19 @@ void set_up_library() {
     (void)untidy, (void)limited;
 }
 
+// Bounds the metadata that HDF5 keeps of an open file: by default these grow to 32 MiB with the
+// chunks of a long run's series. A run's file needs less than 1 MiB between two flushes. With a
+// smaller bound parts are read again, and are written before the next flush.
+void limit_metadata(hid_t access) {
+    constexpr std::size_t kMetadata = 2 << 20;  // [bytes]
+    H5AC_cache_config_t config;
+    config.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+    if (H5Pget_mdc_config(access, &config) < 0) return;
+    config.initial_size = config.max_size = kMetadata;
+    config.set_initial_size = true;
+    H5Pset_mdc_config(access, &config);
+}
+
 }  // namespace
 
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
@@ -51,6 +64,7 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
     // Space in large pieces: the file's end, which is written last, seldom moves then. A kill
     // between a chunk of data and the end would leave the chunk outside of the file.
     if (mode == Mode::create_growing) H5Pset_small_data_block_size(access, 1 << 18);
+    limit_metadata(access);
     if (mode == Mode::read) {
         if (!std::filesystem::exists(path))
             throw bad_input(path.string(), "file not found", "check the path");

@@ -186,7 +186,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     // threads.
     for (std::size_t n = 0; n < pairs_to_measure_.size(); ++n) {
         const Found& found = found_[n];
-        if (states_[pairs_to_measure_[n]] == PairCache::State::stale)
+        if (found.renewed)
             cache_.keep(pairs_to_measure_[n], found.spheres.of(found.batch->spheres));
     }
     emit(scene, pairs, rule, out);
@@ -196,24 +196,23 @@ void ContactFinder::find_listed(const Scene& scene, BodyPair pair, std::size_t k
                                 const MotionBounds& motion, const Within& within, Found& found,
                                 FoundBatch& batch) {
     const PairView view(scene, pair);
-    auto state = states_[k];
-    std::span<const SpherePair> near = cache_.listed(k);
-    if (state == PairCache::State::stale) {
+    if (states_[k] != PairCache::State::stale) {
+        measure_known(view, within.most, cache_.listed(k), batch.pair);
+    } else if (const Skin skin = skin_of(scene, pair, within.step);
+               lasts(scene, pair, skin, within.step)) {
         // the skin is used up: a new list, with a skin that lasts for some steps
-        const Skin skin = skin_of(scene, pair, within.step);
         found.spheres.first = batch.spheres.size();
         const double least = find_near(view, within.margin, skin, batch.pair, batch.spheres);
         found.spheres.count = batch.spheres.size() - found.spheres.first;
-        near = found.spheres.of(batch.spheres);
+        found.renewed = true;
         cache_.renew(k, view, motion, skin, std::min(least - within.margin, skin.distance));
-        state = cache_.state(k, scene, pair, motion, within.step, within.margin, false);
-        if (state == PairCache::State::separated) return;
+        if (cache_.state(k, scene, pair, motion, within.step, within.margin, false) ==
+            PairCache::State::separated)
+            return;
+        measure_known(view, within.most, found.spheres.of(batch.spheres), batch.pair);
+    } else {
+        search_contacts(view, within.most, batch.pair);  // too fast for a list
     }
-    // a pair too fast for a list is searched afresh
-    if (state == PairCache::State::stale)
-        search_contacts(view, within.most, batch.pair);
-    else
-        measure_known(view, within.most, near, batch.pair);
     keep_candidates(found, batch);
     // As find_lost, where the cache cannot rule it out: for seats it also keeps how far the bodies
     // may move before one can be deep.

@@ -71,8 +71,9 @@ private:
         const FoundBatch* batch = nullptr;
         FoundPart candidates;      // that are contacts
         FoundPart corners, seats;  // further contacts: corners of a polygon, or deep seats
-        FoundPart spheres;         // newly listed
-        std::size_t contact = 0;   // where its contacts begin among those of all pairs
+        FoundPart spheres;         // newly listed, where the pair's list was renewed
+        bool renewed = false;
+        std::size_t contact = 0;  // where its contacts begin among those of all pairs
     };
     // Time step [s], margin [m], and the gap up to which a pair's contacts count in the step [m].
     struct Within {

@@ -31,7 +31,7 @@ void LongSeries::add(double value) {
     if (++resting_ < length_) return;
     blocks_.push_back(join_ == Join::mean ? rest_ / static_cast<double>(length_) : rest_);
     resting_ = 0;
-    if (blocks_.size() >= kMost) halve();
+    if (blocks_.size() >= most_) halve();
 }
 
 void LongSeries::halve() {

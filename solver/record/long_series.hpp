@@ -12,19 +12,21 @@ class CheckpointFile;
 
 /// A series of any length in bounded memory.
 ///
-/// Fewer than kMost values are kept one by one. Beyond that neighbours are joined two by two, again
-/// and again, so that fewer than kMost blocks of 1, 2, 4, ... values are kept. Count, mean, largest
-/// value and standard deviation are those of all single values whatever the length.
+/// Fewer than `most` values are kept one by one. Beyond that neighbours are joined two by two,
+/// again and again, so that fewer than `most` blocks of 1, 2, 4, ... values are kept. Count, mean,
+/// largest value and standard deviation are those of all single values whatever the length.
 class LongSeries {
 public:
-    /// Values kept at most [-]: 512 kB, 22 minutes of steps of 0.02 s. Fewer join values sooner,
-    /// and spectrum and peaks see less of short times; more costs memory.
+    /// Steps kept at most [-]: 512 kB, 22 minutes of steps of 0.02 s. Fewer join values sooner, and
+    /// the spectrum sees less of short times; more costs memory.
     static constexpr std::size_t kMost = 65536;
 
     /// The value that represents a block.
     enum class Join { mean, largest };
 
-    explicit LongSeries(Join join = Join::mean) : join_(join) {}
+    /// @param most  values kept at most, a power of two
+    explicit LongSeries(Join join = Join::mean, std::size_t most = kMost)
+        : join_(join), most_(most) {}
 
     /// Numbers are in the caller's unit throughout.
     void add(double value);
@@ -54,6 +56,7 @@ private:
     void halve();
 
     Join join_;
+    std::size_t most_;
     std::vector<double> blocks_;
     std::int64_t count_ = 0, length_ = 1;
     double sum_ = 0.0, largest_ = 0.0;

@@ -17,6 +17,9 @@ constexpr double kPanelWindow = 0.1;
 // Steps of a window at least [-]: a window of fewer would still be single hits. More average pushes
 // out of the peaks at long steps.
 constexpr std::int64_t kLeastSteps = 5;
+// Windows of a region kept at most [-]: 128 kB, 27 minutes of windows of 0.1 s. Fewer join windows
+// sooner, and hits that follow each other closely count as one; more costs memory.
+constexpr std::size_t kMostWindows = 16384;
 // Panels in summary.json at most [-], beside the hardest of each region; run.h5 has all. A larger
 // value makes the file longer, a smaller one leaves out hard hits.
 constexpr std::size_t kMostPanels = 40;
@@ -33,8 +36,8 @@ PanelLoads::PanelLoads(HullPanels hull, std::vector<std::string> region_names, d
       on_panel_(hull_.panels.size(), 0.0),
       on_region_(region_names_.size(), 0.0),
       forces_(hull_.panels.size()),
-      regions_(region_names_.size(), LongSeries(LongSeries::Join::largest)),
-      lines_(region_names_.size(), LongSeries(LongSeries::Join::largest)) {
+      regions_(region_names_.size(), LongSeries(LongSeries::Join::largest, kMostWindows)),
+      lines_(regions_) {
     hull_.window = static_cast<double>(steps_per_window_) * dt;
 }
 

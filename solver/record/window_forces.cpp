@@ -14,13 +14,14 @@ namespace ice {
 
 namespace {
 
-// Bits of a double that a class leaves out [-]. Its exponent and the first 8 digits of its mantissa
-// remain: 256 classes between powers of two, so that a quantile is right to 0.2 %. One bit
-// more left out halves classes and memory, and doubles that error.
-constexpr int kDropped = 44;
+// Bits of a double that a class leaves out [-]. Its exponent and the first 7 digits of its mantissa
+// remain: 128 classes between powers of two, so that a quantile is right to 0.4 %, and the classes
+// take no more memory than kExact forces. One bit more left out halves classes and memory, and
+// doubles that error.
+constexpr int kDropped = 45;
 
 // The bits of positive doubles rise with their values, so the leading ones number classes of equal
-// width on each octave: 2^-8 of the value, 0.2 % from a class' middle. No logarithm is needed.
+// width on each octave: 2^-7 of the value, 0.4 % from a class' middle. No logarithm is needed.
 std::int32_t class_of(double force) {
     return static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(force) >> kDropped);
 }

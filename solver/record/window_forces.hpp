@@ -11,8 +11,8 @@ class CheckpointFile;
 
 /// A quantile of the forces of windows, in bounded memory.
 ///
-/// Up to kExact forces are kept one by one. From then on they are counted in classes, 256 between
-/// two powers of two, so that the quantile is within 0.2 % of the exact one; sum and largest are
+/// Up to kExact forces are kept one by one. From then on they are counted in classes, 128 between
+/// two powers of two, so that the quantile is within 0.4 % of the exact one; sum and largest are
 /// exact whatever the number.
 class WindowForces {
 public:

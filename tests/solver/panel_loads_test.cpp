@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Peaks, panels and what a known force is on them.
 //
-// Tolerances: 0.2 % is half of a class of forces, of which there are 256 from a force to its
+// Tolerances: 0.4 % is half of a class of forces, of which there are 128 from a force to its
 // double, with a reserve; 1e-9 is rounding of a sum over all spheres.
 #include "solver/record/panel_loads.hpp"
 
@@ -101,7 +101,7 @@ TEST_CASE("exceedance of 1000 peaks of heights 1 to 1000 is a straight line with
     CHECK(peaks.p99 == 1980.0);  // 20 of 2000 values are larger
 }
 
-TEST_CASE("a quantile of many windows is within 0.2 % of the exact one", "[record][property]") {
+TEST_CASE("a quantile of many windows is within 0.4 % of the exact one", "[record][property]") {
     std::mt19937 random(8);
     std::lognormal_distribution<double> draw(10.0, 1.5);
     WindowForces forces;
@@ -121,7 +121,7 @@ TEST_CASE("a quantile of many windows is within 0.2 % of the exact one", "[recor
             const double got = forces.quantile(share, static_cast<std::int64_t>(windows));
             CAPTURE(k, share);
             if (k < WindowForces::kExact) REQUIRE(got == exact);
-            REQUIRE(std::abs(got - exact) <= tolerance(0.002) * exact);
+            REQUIRE(std::abs(got - exact) <= tolerance(0.004) * exact);
         }
     }
     CHECK(forces.sum() == sum);

@@ -164,4 +164,9 @@ Skin skin_of(const Scene& scene, BodyPair pair, double dt) {
             std::clamp(ahead * turning.norm(), kLeastAngle, kMostAngle)};
 }
 
+bool lasts(const Scene& scene, BodyPair pair, const Skin& skin, double dt) {
+    constexpr double kLeastLife = 2.0;  // steps [-]
+    return skin.distance > kLeastLife * dt * closing_speed(scene, pair);
+}
+
 }  // namespace ice

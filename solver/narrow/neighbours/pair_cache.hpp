@@ -107,4 +107,8 @@ private:
 /// between 0.0075 and 0.015 rad (pair_cache.cpp). @param dt  the step [s]
 Skin skin_of(const Scene& scene, BodyPair pair, double dt);
 
+/// Is a list with this skin valid for two steps of `dt` [s]? A list for one step costs more than it
+/// saves.
+bool lasts(const Scene& scene, BodyPair pair, const Skin& skin, double dt);
+
 }  // namespace ice
