@@ -63,6 +63,9 @@ double find_near(const PairView& view, double margin, const Skin& skin, FoundBat
     return bound_spheres(view, range.patch_radius, skin, first, pair.rows, out);
 }
 
+// Are these two spheres? In a list seats (list_near_seats) come behind them.
+bool is_pair(const SpherePair& s) { return s.a >= 0 && s.b >= 0; }
+
 // Spheres of deep bodies have passed each other: their solids tell which contacts are lost. Those
 // of two convex ones are the polygon's corners, of others their deep seats.
 void find_lost(const PairView& view, double apart, double most, FoundBatch::Pair& pair) {
@@ -70,8 +73,9 @@ void find_lost(const PairView& view, double apart, double most, FoundBatch::Pair
     pair.seats.clear();
     if (is_deep(view, apart))
         find_lost_polygon(view, pair.candidates, most, pair.clipping, pair.polygon);
-    else if (may_have_deep_seats(view, apart))
-        find_deep_seats(view, pair.candidates, pair.seats);
+    pair.spheres.clear();
+    list_near_seats(view, apart, 0.0, pair.spheres);
+    find_deep_seats(view, pair.spheres, pair.candidates, pair.seats);
 }
 
 // The exact axes of two convex solids; early out where they are farther apart than `enough` [m].
@@ -110,12 +114,10 @@ void ContactFinder::keep_polygon(Found& found, FoundBatch& batch) {
         batch.corners.push_back({corner, batch.pair.polygon.normal});
 }
 
-void ContactFinder::keep_seats(Found& found, FoundBatch& batch) {
-    found.seats = FoundPart::append(batch.pair.seats, batch.seats);
-}
-
-void ContactFinder::keep_candidates(Found& found, FoundBatch& batch) {
+void ContactFinder::keep_all(Found& found, FoundBatch& batch) {
     found.candidates = FoundPart::append(batch.pair.candidates, batch.candidates);
+    keep_polygon(found, batch);
+    found.seats = FoundPart::append(batch.pair.seats, batch.seats);
 }
 
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs, ContactRule rule,
@@ -145,9 +147,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         const double apart = separation(view);
         if (apart <= most) search_contacts(view, most, batch.pair);
         find_lost(view, apart, most, batch.pair);
-        keep_candidates(found_[k], batch);
-        keep_polygon(found_[k], batch);
-        keep_seats(found_[k], batch);
+        keep_all(found_[k], batch);
     });
     emit(scene, pairs, rule, out);
 }
@@ -196,35 +196,40 @@ void ContactFinder::find_listed(const Scene& scene, BodyPair pair, std::size_t k
                                 const MotionBounds& motion, const Within& within, Found& found,
                                 FoundBatch& batch) {
     const PairView view(scene, pair);
-    if (states_[k] != PairCache::State::stale) {
-        measure_known(view, within.most, cache_.listed(k), batch.pair);
-    } else if (const Skin skin = skin_of(scene, pair, within.step);
-               lasts(scene, pair, skin, within.step)) {
+    std::span<const SpherePair> near = cache_.listed(k);
+    if (states_[k] == PairCache::State::stale) {
+        const Skin skin = skin_of(scene, pair, within.step);
+        if (!lasts(scene, pair, skin, within.step)) {  // too fast for a list
+            search_contacts(view, within.most, batch.pair);
+            find_lost(view, cache_.apart(k), within.most, batch.pair);
+            return keep_all(found, batch);
+        }
         // the skin is used up: a new list, with a skin that lasts for some steps
         found.spheres.first = batch.spheres.size();
         const double least = find_near(view, within.margin, skin, batch.pair, batch.spheres);
+        const double seats = list_near_seats(view, cache_.apart(k), skin.distance, batch.spheres);
         found.spheres.count = batch.spheres.size() - found.spheres.first;
         found.renewed = true;
-        cache_.renew(k, view, motion, skin, std::min(least - within.margin, skin.distance));
+        near = found.spheres.of(batch.spheres);
+        cache_.renew(k, view, motion, skin,
+                     {std::min(least - within.margin, skin.distance), seats});
         if (cache_.state(k, scene, pair, motion, within.step, within.margin, false) ==
             PairCache::State::separated)
             return;
-        measure_known(view, within.most, found.spheres.of(batch.spheres), batch.pair);
-    } else {
-        search_contacts(view, within.most, batch.pair);  // too fast for a list
     }
-    keep_candidates(found, batch);
-    // As find_lost, where the cache cannot rule it out: for seats it also keeps how far the bodies
-    // may move before one can be deep.
-    if (!cache_.may_be_deep(k)) return;
-    if (is_convex_pair(view)) {
-        find_lost_polygon(view, batch.pair.candidates, within.most, batch.pair.clipping,
-                          batch.pair.polygon);
-        return keep_polygon(found, batch);
+    const auto seats = std::partition_point(near.begin(), near.end(), is_pair);
+    measure_known(view, within.most, {near.begin(), seats}, batch.pair);
+    // as find_lost, where the cache cannot rule it out
+    batch.pair.polygon.corners.clear();
+    batch.pair.seats.clear();
+    if (cache_.may_be_deep(k)) {
+        if (is_convex_pair(view))
+            find_lost_polygon(view, batch.pair.candidates, within.most, batch.pair.clipping,
+                              batch.pair.polygon);
+        else
+            find_deep_seats(view, {seats, near.end()}, batch.pair.candidates, batch.pair.seats);
     }
-    cache_.set_seat_clearance(k, view,
-                              find_deep_seats(view, batch.pair.candidates, batch.pair.seats));
-    keep_seats(found, batch);
+    keep_all(found, batch);
 }
 
 // Lists of "centres" are dropped as a whole: they cannot drop single rows.

@@ -89,8 +89,7 @@ private:
                      const Within& within, Found& found, FoundBatch& batch);
     // These append what was found for the pair at hand to the thread's results.
     static void keep_polygon(Found& found, FoundBatch& batch);
-    static void keep_seats(Found& found, FoundBatch& batch);
-    static void keep_candidates(Found& found, FoundBatch& batch);
+    static void keep_all(Found& found, FoundBatch& batch);
     // Makes the contacts of all rows of found_.
     void emit(const Scene& scene, const std::vector<BodyPair>& pairs, ContactRule rule,
               std::vector<Contact>& out);

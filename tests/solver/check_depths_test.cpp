@@ -52,6 +52,15 @@ Candidate face_on_face(const World& w, double gap) {
     return {i, j, {Vec3::UnitX(), gap, 0.0, true, true}};
 }
 
+// The deep seats of a pair without contacts, of all its seats.
+std::vector<DeepSeat> deep_seats_of(const PairView& view) {
+    std::vector<SpherePair> near;
+    list_near_seats(view, -1.0, 0.0, near);
+    std::vector<DeepSeat> out;
+    find_deep_seats(view, near, {}, out);
+    return out;
+}
+
 }  // namespace
 
 TEST_CASE("a deep point in the other solid is as deep as its distance from that surface at most",
@@ -145,15 +154,14 @@ TEST_CASE("a seat is as much less deep as the ice sphere is crushed that it pres
         const Quaternion turn(1.0, 0.1 * unit(random), 0.1 * unit(random), 0.1 * unit(random));
         add_floe(w.scene, thin, 900.0, at, turn.normalized(), 0, false);
         const PairView view(w.scene, {0, 2});
-        std::vector<DeepSeat> found, again;
-        find_deep_seats(view, {}, found);
+        const std::vector<DeepSeat> found = deep_seats_of(view);
         const std::size_t spheres = view.shape_b.center.size();
         for (const DeepSeat& seat : found) {
             if (seat.of_b) continue;  // a seat of the ice moves with its sphere
             const Vec3 into = view.rotation_ab.transpose() * seat.normal;  // the ice, its axes
             w.scene.crushed = {};
             w.scene.crushed.crush(2, seat.facing, spheres, kCrushed * into);
-            find_deep_seats(view, {}, again);
+            const std::vector<DeepSeat> again = deep_seats_of(view);
             const auto same = std::find_if(again.begin(), again.end(), [&](const DeepSeat& s) {
                 return !s.of_b && s.sphere == seat.sphere;
             });
@@ -175,8 +183,7 @@ TEST_CASE("a seat in a notch has no contact, however near the ice's lower face",
     // seats near that edge.
     World w = test::angle_and_box(kRadius, Vec3(2.0 + 0.6 - 0.25, -1.0, 0.5 + 0.2 - 0.1));
     const PairView view(w.scene, {0, 1});
-    std::vector<DeepSeat> seats;
-    find_deep_seats(view, {}, seats);
+    std::vector<DeepSeat> seats = deep_seats_of(view);
     REQUIRE_FALSE(seats.empty());
     CHECK(std::all_of(seats.begin(), seats.end(), [](const DeepSeat& s) {
         return std::abs(s.normal.z()) > 1.0 - tolerance(1e-6);
@@ -186,7 +193,7 @@ TEST_CASE("a seat in a notch has no contact, however near the ice's lower face",
     for (std::size_t k = 0; k < spheres; ++k)
         if (view.shape_b.center[k].x() < -0.6 + 1.5 * kRadius)
             w.scene.crushed.crush(1, static_cast<std::int32_t>(k), spheres, {notch, 0, 0});
-    find_deep_seats(view, {}, seats);
+    seats = deep_seats_of(view);
     // The rest of 0.25 m is pressed against the bottom of the notch; seats in the hull's edges and
     // corners are R (1 - sqrt(1/2)) and R (1 - sqrt(1/3)) less deep.
     CHECK(seats.empty() == (notch > 0.25));
@@ -195,6 +202,53 @@ TEST_CASE("a seat in a notch has no contact, however near the ice's lower face",
         CHECK(s.gap > notch - 0.25 - 1e-6 * kRadius);
         CHECK(s.gap < notch - 0.25 + 0.43 * kRadius);
     }
+}
+
+TEST_CASE("a list of near seats has all that lie deep while the bodies move within its skin",
+          "[narrow][deep][property]") {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const auto some = [&] { return Vec3(unit(random), unit(random), unit(random)); };
+    World w = test::angle_and_box(kRadius, Vec3::Zero());
+    Bodies& b = w.scene.bodies;
+    const auto set_pose = [&](const Vec3& at, const Quaternion& turn) {
+        b.position[1] = at;
+        b.orientation[1] = turn.normalized();
+        b.rotation[1] = b.orientation[1].toRotationMatrix();
+    };
+    const double skin = GENERATE(0.02, 0.1, 0.3), reach = w.scene.shapes[1].bounding_radius;
+    int deep = 0, clear = 0;
+    for (int pose = 0; pose < 100; ++pose) {
+        const Vec3 at = Vec3(2.0, -1.0, 0.0) + some().cwiseProduct(Vec3(1.0, 0.6, 0.4));
+        const Vec3 turn = 0.3 * some();
+        set_pose(at, Quaternion(1.0, turn.x(), turn.y(), turn.z()));
+        std::vector<SpherePair> near;
+        const double clearance = list_near_seats(PairView(w.scene, {0, 1}), -1.0, skin, near);
+        REQUIRE(clearance <= skin);
+        for (int move = 0; move < 10; ++move) {
+            // half of the skin by each, the rotation's lever included: 2 |v| turns by 4 |v| rad
+            const double share = move / 10.0;
+            const Vec3 more = share * 0.1 * skin / reach * some();
+            set_pose(at + share * 0.25 * skin * some(),
+                     Quaternion(1.0, more.x(), more.y(), more.z()) *
+                         Quaternion(1.0, turn.x(), turn.y(), turn.z()).normalized());
+            const PairView view(w.scene, {0, 1});
+            const std::vector<DeepSeat> all = deep_seats_of(view);
+            std::vector<DeepSeat> listed;
+            find_deep_seats(view, near, {}, listed);
+            REQUIRE(listed.size() == all.size());
+            for (std::size_t k = 0; k < all.size(); ++k) {
+                REQUIRE(listed[k].sphere == all[k].sphere);
+                REQUIRE(listed[k].gap == all[k].gap);
+            }
+            deep += all.empty() ? 0 : 1;
+            // in the first pose nothing has moved: the clearance tells whether a seat is deep
+            if (move == 0) CHECK(all.empty() == (clearance > 0.0));
+            clear += all.empty() ? 1 : 0;
+        }
+    }
+    CHECK(deep > 50);
+    CHECK(clear > 50);
 }
 
 TEST_CASE("of two convex solids every contact stays as it is", "[narrow][deep]") {

@@ -26,10 +26,4 @@ bool is_deep(const PairView& view, double apart);
 /// radius of b's spheres.
 double deep_slack(const PairView& view);
 
-/// May seats of one body lie deep in the other, which are not both convex (find_deep_seats)?
-/// @param apart  [m] their separation
-inline bool may_have_deep_seats(const PairView& view, double apart) {
-    return view.shape_a.dimension == 3 && !is_convex_pair(view) && apart <= 0.0;
-}
-
 }  // namespace ice

@@ -79,27 +79,36 @@ private:
     std::size_t next_ = 0;
 };
 
-// Calls visit(sphere, seat) for the seats that may lie in the other's box; the solid's axes.
+// Calls visit(sphere, seat) for a sphere's seat if it lies in the other's box, grown by `reach`
+// [m]; the solid's axes.
 template <class Visit>
-void for_each_seat(const PairView& view, const Side& side, const Visit& visit) {
+void visit_seat(const PairView& view, const Side& side, std::int32_t sphere, double reach,
+                const Visit& visit) {
+    Vec3 at = side.of.center[sphere];
+    if (!view.scene.crushed.is_whole(side.body)) {
+        at += view.scene.crushed.displacement_of(side.body, sphere);
+        if (!side.of.box.contains(at)) return;  // driven right through its body
+    }
+    at += side.of.radius[sphere] * side.of.normal[sphere];
+    const Vec3 seat = side.rotation * at + side.translation;
+    const Vec3 beyond = (side.in.box.min() - seat).cwiseMax(seat - side.in.box.max());
+    if (beyond.maxCoeff() <= reach) visit(sphere, seat);
+}
+
+// Calls visit(sphere, seat) for all seats that may lie in the other's box, grown by `reach` [m].
+template <class Visit>
+void for_each_seat(const PairView& view, const Side& side, double reach, const Visit& visit) {
     const SphereBlocks& blocks = side.of.blocks;
     const Eigen::AlignedBox3d box = box_of_solid(side);
     // The groups' boxes hold centres of spheres, as floats and before any crushing. The growth adds
     // the radius, at which a seat lies, the crushed depth and the rounding.
-    const double grow = side.of.largest_radius + view.scene.crushed.deepest_of(side.body) +
+    const double grow = reach + side.of.largest_radius + view.scene.crushed.deepest_of(side.body) +
                         static_cast<double>(SphereBlocks::kFloatShare * blocks.size);
-    const bool whole = view.scene.crushed.is_whole(side.body);
     for (std::size_t g = 0; g < blocks.group_count; ++g) {
         if (!group_meets(blocks, g, box, grow)) continue;
         for (std::size_t lane = 0; lane < SphereBlocks::kGroup; ++lane) {
             const std::int32_t k = blocks.id[g * SphereBlocks::kGroup + lane];
-            if (k < 0) continue;
-            Vec3 at = side.of.center[k];
-            if (!whole) at += view.scene.crushed.displacement_of(side.body, k);
-            if (!whole && !side.of.box.contains(at)) continue;  // driven right through its body
-            at += side.of.radius[k] * side.of.normal[k];
-            const Vec3 seat = side.rotation * at + side.translation;
-            if (side.in.box.contains(seat)) visit(k, seat);
+            if (k >= 0) visit_seat(view, side, k, reach, visit);
         }
     }
 }
@@ -135,29 +144,43 @@ DeepSeat seat_of(const PairView& view, const Side& side, std::int32_t sphere, co
     return out;
 }
 
-// Appends the deep seats of one side; returns the depth of the deepest seat, at least 0 [m].
-double add_side(const PairView& view, const Side& side, double slack,
-                std::span<const Candidate> found, std::vector<DeepSeat>& out) {
-    double deepest = 0.0;
+// Calls visit(sphere, seat, foot) for the seats that are deeper in the solid than `from` [m].
+// @param seats  calls its argument with sphere and seat
+// @returns the depth of the deepest seat, or `from` where none is deeper [m]
+template <class Seats, class Visit>
+double for_each_deeper(const Side& side, double from, const Seats& seats, const Visit& visit) {
+    double deepest = from;
     Clearings clear;
-    for_each_seat(view, side, [&](std::int32_t sphere, const Vec3& seat) {
+    seats([&](std::int32_t sphere, const Vec3& seat) {
         // Depth changes by at most the distance of two seats: most seats of a side that lies
         // outside are ruled out by the last few nearest points.
         if (clear.contain(seat)) return;
         const Foot foot = side.in.surface->closest(seat);
         const double depth = foot.inside ? foot.distance : -foot.distance;
+        clear.add(seat, from - depth);
         deepest = std::max(deepest, depth);
-        // A seat at the distance s is at most s deeper. Within the clearance none is deeper than
-        // the slack or than the deepest so far: it changes neither the list nor the result.
-        clear.add(seat, std::min(deepest, slack) - depth);
-        if (depth <= slack) return;
-        // It counts in `deepest`: once its sphere is crushed itself, the seat is there again.
-        if (lies_in_notch(view.scene, side.body, sphere)) return;
-        const DeepSeat deep = seat_of(view, side, sphere, seat, foot);
-        // the spheres' contacts nearby explain the depth up to the slack
-        if (deep.gap < -slack - depth_known(view, found, deep.seat)) out.push_back(deep);
+        if (depth > from) visit(sphere, seat, foot);
     });
     return deepest;
+}
+
+// Appends the deep seats of one side.
+void add_side(const PairView& view, const Side& side, std::span<const SpherePair> near,
+              std::span<const Candidate> found, std::vector<DeepSeat>& out) {
+    const double slack = deep_slack(view);
+    const auto seats = [&](const auto& visit) {
+        for (const SpherePair& seat : near)
+            if (const std::int32_t k = side.body == view.pair.b ? seat.b : seat.a; k >= 0)
+                visit_seat(view, side, k, 0.0, visit);
+    };
+    for_each_deeper(side, slack, seats,
+                    [&](std::int32_t sphere, const Vec3& seat, const Foot& foot) {
+                        if (lies_in_notch(view.scene, side.body, sphere)) return;
+                        const DeepSeat deep = seat_of(view, side, sphere, seat, foot);
+                        // the spheres' contacts nearby explain the depth up to the slack
+                        if (deep.gap < -slack - depth_known(view, found, deep.seat))
+                            out.push_back(deep);
+                    });
 }
 
 // Keeps the seats that are pushed in the direction of the deepest one, to 60 degrees. A seat beside
@@ -171,14 +194,36 @@ void keep_one_direction(std::vector<DeepSeat>& seats) {
     std::erase_if(seats, [&](const DeepSeat& s) { return s.normal.dot(direction) < kSameExit; });
 }
 
+// Appends the seats of one side that are deeper than `from` [m]; returns the depth of the deepest,
+// at least `from`.
+double list_side(const PairView& view, const Side& side, double from,
+                 std::vector<SpherePair>& out) {
+    // a seat that lies outside may lie beyond the solid's box by as much
+    const double reach = std::max(0.0, -from);
+    const auto seats = [&](const auto& visit) { for_each_seat(view, side, reach, visit); };
+    const bool of_b = side.body == view.pair.b;
+    return for_each_deeper(side, from, seats, [&](std::int32_t sphere, const Vec3&, const Foot&) {
+        out.push_back(of_b ? SpherePair{-1, sphere} : SpherePair{sphere, -1});
+    });
+}
+
 }  // namespace
 
-double find_deep_seats(const PairView& view, std::span<const Candidate> found,
-                       std::vector<DeepSeat>& out) {
+double list_near_seats(const PairView& view, double apart, double skin,
+                       std::vector<SpherePair>& out) {
+    // a seat's depth grows by no more than the bodies' relative motion
+    const double slack = deep_slack(view), from = slack - skin;
+    if (view.shape_a.dimension == 2 || is_convex_pair(view) || apart > -from) return skin;
+    const double deepest_b = list_side(view, side_of_b(view), from, out),
+                 deepest_a = list_side(view, side_of_a(view), from, out);
+    return slack - std::max(deepest_b, deepest_a);
+}
+
+void find_deep_seats(const PairView& view, std::span<const SpherePair> near,
+                     std::span<const Candidate> found, std::vector<DeepSeat>& out) {
     out.clear();
-    const double slack = deep_slack(view);
-    const double deepest = std::max(add_side(view, side_of_b(view), slack, found, out),
-                                    add_side(view, side_of_a(view), slack, found, out));
+    add_side(view, side_of_b(view), near, found, out);
+    add_side(view, side_of_a(view), near, found, out);
     // By place with y and -y alike: mirror images are solved in the same order.
     std::sort(out.begin(), out.end(), [](const DeepSeat& l, const DeepSeat& r) {
         const auto key = [](const DeepSeat& s) {
@@ -187,8 +232,6 @@ double find_deep_seats(const PairView& view, std::span<const Candidate> found,
         return key(l) < key(r);
     });
     keep_one_direction(out);
-    // a seat's depth grows by no more than the bodies' relative motion
-    return slack - deepest;
 }
 
 void make_seat_contacts(const PairView& view, const ContactRule& rule,

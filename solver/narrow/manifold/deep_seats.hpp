@@ -9,6 +9,7 @@
 #include "solver/narrow/feature/pair_view.hpp"
 #include "solver/narrow/manifold/contact.hpp"
 #include "solver/narrow/manifold/contact_rule.hpp"
+#include "solver/narrow/neighbours/pair_cache.hpp"
 
 namespace ice {
 
@@ -22,6 +23,15 @@ struct DeepSeat {
     double gap;           ///< minus the depth of its way out (way_out.hpp) [m]
 };
 
+/// Appends the seats that may lie deeper than deep_slack while the bodies move by at most `skin`
+/// [m] relative to each other: {-1, sphere} is one of b, {sphere, -1} one of a. None in 2D and for
+/// two convex solids.
+/// @param apart  [m] the separation of the bodies
+/// @returns how far they may move before one lies so deep, at most `skin` [m]; not above 0 while
+/// one does, crushed ice counted as if it were whole
+double list_near_seats(const PairView& view, double apart, double skin,
+                       std::vector<SpherePair>& out);
+
 /// Finds the seats of either body that lie in the other's solid and are deeper than every contact
 /// within a patch radius by more than deep_slack. Seats whose direction differs from the deepest
 /// one's by more than 60 degrees are left out.
@@ -30,11 +40,10 @@ struct DeepSeat {
 /// the shortest path out is the wrong one for a seat beyond the middle of a body. The order of
 /// `out` is by place, mirror images about y = 0 alike.
 ///
+/// @param near   of list_near_seats(), with a skin of at least the motion since then
 /// @param found  contacts that the spheres gave @param out  its old content is dropped
-/// @returns how far the bodies may move relative to each other before another seat can lie so deep
-/// [m]; not above 0 while one does, crushed ice counted as if it were whole
-double find_deep_seats(const PairView& view, std::span<const Candidate> found,
-                       std::vector<DeepSeat>& out);
+void find_deep_seats(const PairView& view, std::span<const SpherePair> near,
+                     std::span<const Candidate> found, std::vector<DeepSeat>& out);
 
 /// Makes their contacts: the patch is that of the seat, or of the ice that a hull's seat is in.
 /// @param seats  of find_deep_seats(), in their order @param out  room for as many

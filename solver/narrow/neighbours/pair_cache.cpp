@@ -51,7 +51,7 @@ void PairCache::forget(const std::vector<std::int32_t>& bodies) {
 }
 
 void PairCache::renew(std::size_t k, const PairView& view, const MotionBounds& motion,
-                      const Skin& skin, double clearance) {
+                      const Skin& skin, const Clearance& clearance) {
     Row& row = lists_.row(k);
     row.rotation = view.rotation_ab;
     row.translation = view.translation_ab;
@@ -69,31 +69,14 @@ void PairCache::set_clearances(Row& row, BodyPair pair, const MotionBounds& moti
     const double now = motion.path(pair.a) + motion.path(pair.b);
     // solids deep in each other have contacts even where no spheres may touch: always
     // measured
-    row.path_clearance = row.deep ? -std::numeric_limits<double>::infinity()
-                                  : now + std::min(row.clearance - gone, row.seat_clearance_left);
+    row.path_clearance = row.deep
+                             ? -std::numeric_limits<double>::infinity()
+                             : now + std::min(row.clearance.spheres, row.clearance.seats) - gone;
     // Stale where the relative motion may exceed the skin: as the sum of paths bounds the
     // motion, the rest of the skin may be spent on it.
     row.path_stale = now + row.skin.distance - gone;
     row.rotation_stale =
         motion.rotation(pair.a) + motion.rotation(pair.b) + row.skin.angle - turned;
-}
-
-void PairCache::set_seat_clearance(std::size_t k, const PairView& view, double clearance) {
-    Row& row = lists_.row(k);
-    row.seat_rotation = view.rotation_ab;
-    row.seat_translation = view.translation_ab;
-    row.seat_clearance = clearance;
-}
-
-double PairCache::seat_clearance_left(const Row& row, const PairView& view, double apart) {
-    if (view.shape_a.dimension == 2 || is_convex_pair(view))
-        return std::numeric_limits<double>::infinity();  // the separating axis gives their depth
-    // apart: no seat lies inside, and one needs the slack to become deep
-    if (apart > 0.0) return deep_slack(view);
-    if (row.seat_clearance < 0.0) return row.seat_clearance;
-    // the clearance after the last search, less the motion since then
-    return row.seat_clearance -
-           relative_motion(view, row.seat_rotation, row.seat_translation).distance;
 }
 
 double PairCache::separation_of_solids(Row& row, const PairView& view, double enough) {
@@ -140,8 +123,8 @@ PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pa
         row.path_clearance = -row.path_stale;
         return State::polygon;
     }
-    row.seat_clearance_left = seat_clearance_left(row, view, apart + margin);
-    row.deep = is_deep(view, apart + margin) || row.seat_clearance_left <= 0.0;
+    row.apart = apart + margin;
+    row.deep = is_deep(view, row.apart);
     if (row.skin.distance < 0.0) return State::stale;  // never settled
     // Third the skin: how much of it has the motion used up? Crushing moves spheres as motion
     // does.
@@ -149,9 +132,10 @@ PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pa
     const double gone = moved + motion.crushed(pair.a) + motion.crushed(pair.b) - row.crushed;
     const double then = gone + closing;
     if (then >= row.skin.distance || turned >= row.skin.angle) return State::stale;
+    row.deep = row.deep || gone >= row.clearance.seats;
     set_clearances(row, pair, motion, gone, turned);
     // within the clearance no listed spheres can touch yet
-    return row.deep || then >= row.clearance ? State::listed : State::separated;
+    return row.deep || then >= row.clearance.spheres ? State::listed : State::separated;
 }
 
 Skin skin_of(const Scene& scene, BodyPair pair, double dt) {

@@ -47,24 +47,29 @@ public:
     /// The separating axes of row k's solids. @pre state() returned State::polygon, both are convex
     const SeparatingAxes& axes(std::size_t k) const { return lists_.row(k).axes; }
 
-    /// Spheres of row k that may touch; valid until the next keep() or carry_over().
+    /// Spheres of row k that may touch, and its seats that may lie deep (list_near_seats); valid
+    /// until the next keep() or carry_over().
     std::span<const SpherePair> listed(std::size_t k) const { return lists_.listed(k); }
 
+    /// How far apart row k's solids were at the last state(): a lower bound, exact between two
+    /// convex ones [m]. @pre it returned State::listed or State::stale
+    double apart(std::size_t k) const { return lists_.row(k).apart; }
+
     /// May row k's solids overlap so far that spheres have lost each other (is_deep, DeepSeat)?
-    /// @pre state() returned State::listed or State::stale
+    /// @pre state() returned State::listed
     bool may_be_deep(std::size_t k) const { return lists_.row(k).deep; }
 
-    /// No seat of row k lies deep before its bodies have moved by `clearance` [m] relative to each
-    /// other (find_deep_seats). Different rows may be set at the same time.
-    void set_seat_clearance(std::size_t k, const PairView& view, double clearance);
-
-    /// Starts a new list of row k: valid within `skin`; its bodies cannot touch before they have
-    /// moved by `clearance` [m] relative to each other. Different rows may be renewed at the same
+    /// How far the bodies of a row may move relative to each other [m] before spheres can touch,
+    /// and before seats can lie deep.
+    struct Clearance {
+        double spheres = 0.0, seats = 0.0;
+    };
+    /// Starts a new list of row k, valid within `skin`. Different rows may be renewed at the same
     /// time.
     void renew(std::size_t k, const PairView& view, const MotionBounds& motion, const Skin& skin,
-               double clearance);
+               const Clearance& clearance);
 
-    /// Stores the spheres of row k that may touch. One thread at a time.
+    /// Stores the list of row k. One thread at a time.
     void keep(std::size_t k, std::span<const SpherePair> near) { lists_.keep(k, near); }
 
 private:
@@ -72,8 +77,8 @@ private:
         // pose of b in a's axes when the row was renewed
         Mat3 rotation = Mat3::Zero();
         Vec3 translation = Vec3::Zero();
-        double crushed = 0.0;    // of both bodies then [m]
-        double clearance = 0.0;  // relative motion before they can touch [m]
+        double crushed = 0.0;  // of both bodies then [m]
+        Clearance clearance;
         Skin skin{-1.0, -1.0};
         // Sums of both bodies' paths and rotations up to which their poses need not be compared:
         // the relative motion is at most that sum. Until the pair may touch [m]; until it is stale
@@ -81,21 +86,14 @@ private:
         double path_clearance = 0.0, path_stale = 0.0, rotation_stale = 0.0;
         std::size_t axis = 0;  // of separation(), when last compared
         SeparatingAxes axes;   // instead of it where two convex solids meet in a polygon
+        double apart = 0.0;    // when last compared [m]
         bool deep = false;
-        // Pose of b when its seats were last searched, and the relative motion from there before
-        // one can lie deep [m]; negative: they must be searched in any case.
-        Mat3 seat_rotation = Mat3::Zero();
-        Vec3 seat_translation = Vec3::Zero();
-        double seat_clearance = -1.0;
-        double seat_clearance_left = 0.0;  // what was left of it when last compared [m]
     };
     // A lower bound of the distance of row k's solids; of two convex ones exact where it is at most
     // `enough` [m].
     static double separation_of_solids(Row& row, const PairView& view, double enough);
     static void set_clearances(Row& row, BodyPair pair, const MotionBounds& motion, double gone,
                                double turned);
-    // Relative motion of the pair before its seats must be searched [m].
-    static double seat_clearance_left(const Row& row, const PairView& view, double apart);
 
     // Entries [-] up to which lists that are no longer in use cost less than closing the gaps.
     static constexpr std::size_t kFewest = 4096;
