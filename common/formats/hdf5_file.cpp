@@ -36,16 +36,13 @@ void set_up_library() {
     (void)untidy, (void)limited;
 }
 
-// Bounds the metadata that HDF5 keeps of an open file: by default these grow to 32 MiB with the
-// chunks of a long run's series. A run's file needs less than 1 MiB between two flushes. With a
-// smaller bound parts are read again, and are written before the next flush.
+// The index of a file's chunks grows with a long run, and HDF5 keeps up to 32 MiB of it in memory.
+// Bounds this to the 2 MiB with which HDF5 begins; it reads the rest of the index from the file.
 void limit_metadata(hid_t access) {
-    constexpr std::size_t kMetadata = 2 << 20;  // [bytes]
     H5AC_cache_config_t config;
     config.version = H5AC__CURR_CACHE_CONFIG_VERSION;
     if (H5Pget_mdc_config(access, &config) < 0) return;
-    config.initial_size = config.max_size = kMetadata;
-    config.set_initial_size = true;
+    config.max_size = config.initial_size;
     H5Pset_mdc_config(access, &config);
 }
 

@@ -15,8 +15,8 @@ namespace ice {
 namespace {
 
 // Bits of a double that a class leaves out [-]. Its exponent and the first 7 digits of its mantissa
-// remain: 128 classes between powers of two, so that a quantile is right to 0.4 %, and the classes
-// take no more memory than kExact forces. One bit more left out halves classes and memory, and
+// remain: 128 classes between powers of two, so that a quantile is right to 0.4 %. Forces over
+// eight powers of two then take as much memory as kExact forces. One bit more left out halves classes and memory, and
 // doubles that error.
 constexpr int kDropped = 45;
 

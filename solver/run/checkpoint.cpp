@@ -168,8 +168,9 @@ void write_checkpoint(const std::filesystem::path& path, World& world, Recorder&
         carry(file, progress);
         file.finish();
     }
-    // The copies of all columns took up to 12 MB, in pieces between what the run keeps. Their pages
-    // go back to the system: the next checkpoint would find some in use and take new ones.
+    // A checkpoint copies all columns and then frees the copies, which lie between data that the run
+    // keeps. The system gets their pages back here, because keep_pages() would hold them. Without
+    // this a long run needs new pages for each checkpoint: other data fill part of the old ones.
     malloc_trim(0);
 }
 

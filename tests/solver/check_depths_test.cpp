@@ -226,7 +226,8 @@ TEST_CASE("a list of near seats has all that lie deep while the bodies move with
         const double clearance = list_near_seats(PairView(w.scene, {0, 1}), -1.0, skin, near);
         REQUIRE(clearance <= skin);
         for (int move = 0; move < 10; ++move) {
-            // half of the skin by each, the rotation's lever included: 2 |v| turns by 4 |v| rad
+            // The move is at most 0.39 skins. The quaternion (1, v) turns by 2 |v|, so the turn
+            // moves the box by at most 0.31 skins.
             const double share = move / 10.0;
             const Vec3 more = share * 0.1 * skin / reach * some();
             set_pose(at + share * 0.25 * skin * some(),

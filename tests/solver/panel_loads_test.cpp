@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Peaks, panels and what a known force is on them.
 //
-// Tolerances: 0.4 % is half of a class of forces, of which there are 128 from a force to its
-// double, with a reserve; 1e-9 is rounding of a sum over all spheres.
+// Tolerances: 0.4 % is half the width of a class of forces, rounded up. 128 classes lie between a
+// force and its double. 1e-9 is rounding of a sum over all spheres.
 #include "solver/record/panel_loads.hpp"
 
 #include <algorithm>
