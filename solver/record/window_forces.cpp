@@ -16,8 +16,8 @@ namespace {
 
 // Bits of a double that a class leaves out [-]. Its exponent and the first 7 digits of its mantissa
 // remain: 128 classes between powers of two, so that a quantile is right to 0.4 %. Forces over
-// eight powers of two then take as much memory as kExact forces. One bit more left out halves classes and memory, and
-// doubles that error.
+// eight powers of two then take as much memory as kExact forces. One bit more left out halves
+// classes and memory, and doubles that error.
 constexpr int kDropped = 45;
 
 // The bits of positive doubles rise with their values, so the leading ones number classes of equal

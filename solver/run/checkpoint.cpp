@@ -168,9 +168,10 @@ void write_checkpoint(const std::filesystem::path& path, World& world, Recorder&
         carry(file, progress);
         file.finish();
     }
-    // A checkpoint copies all columns and then frees the copies, which lie between data that the run
-    // keeps. The system gets their pages back here, because keep_pages() would hold them. Without
-    // this a long run needs new pages for each checkpoint: other data fill part of the old ones.
+    // A checkpoint copies all columns and then frees the copies, which lie between data that the
+    // run keeps. The system gets their pages back here, because keep_pages() would hold them.
+    // Without this a long run needs new pages for each checkpoint: other data fill part of the old
+    // ones.
     malloc_trim(0);
 }
 
