@@ -62,6 +62,7 @@ public:
         keep_planes(out);
         keep_edges(out.solid);
         out.solid.corners = whole_.corners;
+        out.closed = whole_;
         Eigen::AlignedBox3d box;
         for (std::size_t k = 0; k < whole_.corners.size(); ++k) box.extend(whole_.corners[k]);
         out.middle = box.center();

@@ -108,6 +108,10 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         room = out.depth - depth;
         if (depth <= out.depth) return;
         if (sphere >= 0 && lies_in_notch(scene, a, sphere)) return;
+        // crushing has driven it out of a hollow body on the other side
+        if (sphere >= 0 && !scene.crushed.displacement_of(a, sphere).isZero(0.0) &&
+            !is_inside(scene, a, bodies.position[a] + bodies.rotation[a] * at))
+            return;
         // ice that contacts have crushed there is left out
         depth = way_out(scene, b, p, foot).depth;
         if (depth > out.depth) out = {depth, bodies.position[b] + bodies.rotation[b] * p};

@@ -15,6 +15,7 @@ namespace ice {
 struct SolidPart {
     ConvexPiece solid;
     std::vector<SidePlane> cuts;  ///< planes between it and other parts, outward
+    ConvexPiece closed;           ///< the part with its cuts as planes and edges like all others
     Vec3 middle = Vec3::Zero();   ///< of a sphere around the part, body axes [m]
     double radius = 0.0;          ///< of that sphere [m]
 };

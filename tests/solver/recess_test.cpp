@@ -50,7 +50,8 @@ struct Floe {
     // The contacts of a step: their depths [m], along -z from the plate into the floe.
     void meet(std::initializer_list<double> depths, double approach = 0.0) {
         contacts.assign(depths.size(), {});
-        constraints.assign(depths.size(), {});
+        constraints.clear();
+        constraints.resize(depths.size());
         std::size_t k = 0;
         for (const double depth : depths) {
             Contact& c = contacts[k];

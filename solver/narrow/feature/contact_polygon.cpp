@@ -160,28 +160,50 @@ void meet_faces(const Meeting& m, double gap, double most, std::uint32_t kind, C
     });
 }
 
+// Two edges of the axes where their lines are nearest, a's axes.
+struct EdgeCrossing {
+    EdgeCrossing(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                 const SeparatingAxes& axes)
+        : ka(static_cast<std::size_t>(axes.edge_a)),
+          kb(static_cast<std::size_t>(axes.edge_b)),
+          gap(axes.edges) {
+        pa = a.edge_middle[ka];
+        ea = a.edge_along[ka];
+        pb = ordered_product(pose.rotation, b.edge_middle[kb]) + pose.translation;
+        eb = ordered_product(pose.rotation, b.edge_along[kb]);
+        // The closest points p_a + s e_a and p_b + t e_b of two lines, with c = e_a x e_b: s =
+        // (e_b x c) . (p_b - p_a) / |c|^2 and t = (e_a x c) . (p_b - p_a) / |c|^2.
+        const Vec3 apart = pb - pa, across = ea.cross(eb);
+        const double square = ordered_dot(across, across);
+        along_a = ordered_dot(eb.cross(across), apart) / square;
+        along_b = ordered_dot(ea.cross(across), apart) / square;
+        const auto half = [](const ConvexPiece& piece, std::size_t k) {
+            const SolidEdge& e = piece.edges[k];
+            return (piece.corners[static_cast<std::size_t>(e.end)] - piece.edge_middle[k]).norm();
+        };
+        half_a = half(a, ka);
+        half_b = half(b, kb);
+    }
+    PolygonCorner corner() const {
+        return {0.5 * (pa + along_a * ea + pb + along_b * eb), gap,
+                3u << 30 | static_cast<std::uint32_t>(ka << 12 | kb)};
+    }
+
+    std::size_t ka, kb;       // the edges
+    double gap;               // [m]
+    Vec3 pa, ea, pb, eb;      // their middles [m] and unit directions
+    double along_a, along_b;  // from the middle to the crossing [m]
+    double half_a, half_b;    // from the middle to the end [m]
+};
+
 // Midway between two edges where their lines are nearest; nowhere where that is beyond an end.
 void meet_edges(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                 const SeparatingAxes& axes, ContactPolygon& out) {
-    const auto ka = static_cast<std::size_t>(axes.edge_a),
-               kb = static_cast<std::size_t>(axes.edge_b);
-    const Vec3 pa = a.edge_middle[ka], ea = a.edge_along[ka];
-    const Vec3 pb = ordered_product(pose.rotation, b.edge_middle[kb]) + pose.translation,
-               eb = ordered_product(pose.rotation, b.edge_along[kb]);
-    // The closest points p_a + s e_a and p_b + t e_b of two lines, with c = e_a x e_b: s = (e_b
-    // x c) . (p_b - p_a) / |c|^2 and t = (e_a x c) . (p_b - p_a) / |c|^2.
-    const Vec3 apart = pb - pa, across = ea.cross(eb);
-    const double square = ordered_dot(across, across);
-    const double along_a = ordered_dot(eb.cross(across), apart) / square,
-                 along_b = ordered_dot(ea.cross(across), apart) / square;
-    const auto half = [](const ConvexPiece& piece, std::size_t k) {
-        const SolidEdge& e = piece.edges[k];
-        return (piece.corners[static_cast<std::size_t>(e.end)] - piece.edge_middle[k]).norm();
-    };
-    const double slack = slack_of_gap(axes.edges);
-    if (std::abs(along_a) > half(a, ka) + slack || std::abs(along_b) > half(b, kb) + slack) return;
-    out.corners.push_back({0.5 * (pa + along_a * ea + pb + along_b * eb), axes.edges,
-                           3u << 30 | static_cast<std::uint32_t>(ka << 12 | kb)});
+    const EdgeCrossing at(a, b, pose, axes);
+    const double slack = slack_of_gap(at.gap);
+    if (std::abs(at.along_a) > at.half_a + slack || std::abs(at.along_b) > at.half_b + slack)
+        return;
+    out.corners.push_back(at.corner());
 }
 
 // A sort key that mirror images about y = 0 have in common.
@@ -208,6 +230,16 @@ AxisKind widest_kind(const SeparatingAxes& axes) {
 }
 
 }  // namespace
+
+PolygonCorner edge_corner(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                          const SeparatingAxes& axes) {
+    EdgeCrossing at(a, b, pose, axes);
+    at.along_a = std::clamp(at.along_a, -at.half_a, at.half_a);
+    at.along_b = std::clamp(at.along_b, -at.half_b, at.half_b);
+    return at.corner();
+}
+
+bool is_edge_axis(const SeparatingAxes& axes) { return widest_kind(axes) == AxisKind::edges; }
 
 Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                  const SeparatingAxes& axes) {

@@ -73,6 +73,14 @@ void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const Rela
                           const SeparatingAxes& axes, double most, ClippingWork& work,
                           ContactPolygon& out);
 
+/// The point midway between the two edges of the widest axis where their lines are nearest, but no
+/// farther along either edge than its end; its gap is the axis's. @pre the axis is that of edges
+PolygonCorner edge_corner(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                          const SeparatingAxes& axes);
+
+/// Is the axis with the widest gap that of two edges? Flush ones as axis_normal().
+bool is_edge_axis(const SeparatingAxes& axes);
+
 /// The axis with the widest gap, unit, from a to b, a's axes; flush ones by PolygonTolerances, a's
 /// face before b's before two edges.
 Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,

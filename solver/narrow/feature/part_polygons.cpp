@@ -31,7 +31,7 @@ void add_once(const PolygonCorner& corner, std::vector<PolygonCorner>& out) {
 // Moves the corners that have the first one's normal to `out`, at most four of them: parts that
 // meet along one face of a body carry no more than the whole face does.
 void take_one_normal(PartsWork& work, std::vector<MetCorner>& out) {
-    auto& [clipping, polygon, corners] = work;
+    auto& [clipping, polygon, corners, lost] = work;
     const Vec3 normal = corners.front().normal;
     const auto rest = std::stable_partition(
         corners.begin() + 1, corners.end(),
@@ -74,13 +74,65 @@ bool faces(const SolidPart& part, const Vec3& n) {
                         [&](const SidePlane& cut) { return ordered_dot(cut.outward, n) < least; });
 }
 
+// How deep the parts are in each other if their cuts are planes like all others [m].
+double depth_with_cuts(const SolidPart& a, const SolidPart& b, const RelativePose& pose) {
+    return -find_axes(a.closed, b.closed, pose, 0.0).widest();
+}
+
+// Adds corners of parts that overlap deeper than all corners found. Where an edge passes over a
+// hollow corner, the rims of two parts end at the cut between them, and both parts have the
+// crossing beyond the end: it is at the end then. The part's own cuts bound its depth.
+void add_lost(const RelativePose& pose, PartsWork& work) {
+    double least = 0.0;  // gap of the corners found [m]
+    for (const MetCorner& c : work.corners) least = std::min(least, c.corner.gap);
+    for (const auto& [a, b, axes, number] : work.lost) {
+        // cuts can only make the overlap smaller
+        if (axes.widest() >= least) continue;
+        const double gap = -depth_with_cuts(*a, *b, pose);
+        if (gap >= least) continue;
+        PolygonCorner corner = edge_corner(a->solid, b->solid, pose, axes);
+        corner.gap = gap;
+        corner.id |= number << 32;
+        work.corners.push_back({corner, axis_normal(a->solid, b->solid, pose, axes)});
+    }
+}
+
+// The share of the depth along their axis to which two parts overlap with their cuts [-] below
+// which they only meet beside a cut: the true contact is that of the part behind it. A larger one
+// loses contacts near cuts, a smaller one leaves contacts along wrong axes.
+constexpr double kLeastDepth = 0.5;
+
+// Appends the corners in which two parts meet.
+void meet_parts(const SolidPart& a, const SolidPart& b, const RelativePose& pose, double most,
+                std::uint64_t number, PartsWork& work) {
+    auto& [clipping, polygon, corners, lost] = work;
+    const SeparatingAxes axes = find_axes(a.solid, b.solid, pose, most);
+    if (axes.widest() > most) return;
+    const Vec3 n = axis_normal(a.solid, b.solid, pose, axes);
+    if (!faces(b, ordered_transposed(pose.rotation, n)) || !faces(a, -n)) return;
+    make_contact_polygon(a.solid, b.solid, pose, axes, most, clipping, polygon);
+    if (polygon.corners.empty() && axes.widest() < 0.0 && is_edge_axis(axes))
+        lost.push_back({&a, &b, axes, number});
+    // deeper than the range of contacts: what of it is the other parts'?
+    if (!polygon.corners.empty() && axes.widest() < -most &&
+        depth_with_cuts(a, b, pose) < -kLeastDepth * axes.widest())
+        return;
+    for (PolygonCorner& corner : polygon.corners) {
+        corner.id |= number << 32;
+        // A corner of the reference is beside the incident face by up to the gap, and a face that
+        // is nearly upright is far below there: no point is deeper than the axis.
+        corner.gap = std::max(corner.gap, axes.widest());
+        corners.push_back({corner, polygon.normal});
+    }
+}
+
 }  // namespace
 
 void find_part_polygons(std::span<const SolidPart> a, std::span<const SolidPart> b,
                         const RelativePose& pose, double most, PartsWork& work,
                         std::vector<MetCorner>& out) {
-    auto& [clipping, polygon, corners] = work;
-    corners.clear();
+    work.corners.clear();
+    work.lost.clear();
     const RelativePose back{pose.rotation.transpose(),
                             -ordered_transposed(pose.rotation, pose.translation)};
     std::uint64_t number = 0;  // of the pair of parts
@@ -93,19 +145,11 @@ void find_part_polygons(std::span<const SolidPart> a, std::span<const SolidPart>
             if (ordered_dot(apart, apart) > near * near) continue;
             if (is_beyond_cut(part_a, part_b, pose) || is_beyond_cut(part_b, part_a, back))
                 continue;
-            const SeparatingAxes axes = find_axes(part_a.solid, part_b.solid, pose, most);
-            if (axes.widest() > most) continue;
-            const Vec3 n = axis_normal(part_a.solid, part_b.solid, pose, axes);
-            if (!faces(part_b, ordered_transposed(pose.rotation, n)) || !faces(part_a, -n))
-                continue;
-            make_contact_polygon(part_a.solid, part_b.solid, pose, axes, most, clipping, polygon);
-            for (PolygonCorner& corner : polygon.corners) {
-                corner.id |= number << 32;
-                corners.push_back({corner, polygon.normal});
-            }
+            meet_parts(part_a, part_b, pose, most, number, work);
         }
+    add_lost(pose, work);
     const auto first = std::ssize(out);
-    while (!corners.empty()) take_one_normal(work, out);
+    while (!work.corners.empty()) take_one_normal(work, out);
     std::sort(out.begin() + first, out.end(), [](const MetCorner& l, const MetCorner& r) {
         return place_key(l.corner) < place_key(r.corner);
     });

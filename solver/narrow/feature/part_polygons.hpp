@@ -16,16 +16,28 @@ struct MetCorner {
     Vec3 normal;  ///< of its polygon: unit, from a to b, a's axes
 };
 
+/// Two parts that overlap, of which no corner was found.
+struct LostParts {
+    const SolidPart *a, *b;
+    SeparatingAxes axes;   ///< without the cuts
+    std::uint64_t number;  ///< of the pair of parts
+};
+
 /// Work memory of find_part_polygons, which keeps its capacity between pairs.
 struct PartsWork {
     ClippingWork clipping;
     ContactPolygon polygon;          ///< of two parts, then of all with one normal
     std::vector<MetCorner> corners;  ///< of all parts
+    std::vector<LostParts> lost;
 };
 
 /// Finds the corners of the polygons in which two bodies meet. Each convex part of a meets each
 /// part of b (make_contact_polygon). Corners with a gap of more than `most` [m] are left out. At
 /// most four corners with the same normal are kept.
+///
+/// Overlapping parts whose edges cross beyond an end, at a hollow corner, have a corner at that end
+/// if they are deeper than all others. Parts that overlap by more than `most` have corners only if
+/// they are half as deep with their cuts as planes: else the part behind the cut has them.
 ///
 /// Parts that meet in one face of a body carry no more than the whole face does; a cut between two
 /// parts has no corners. Bodies without parts have none.

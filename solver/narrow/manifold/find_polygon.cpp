@@ -11,21 +11,6 @@
 
 namespace ice {
 
-namespace {
-
-// Depth of the ice that was crushed at a corner of either body, and is gone [m].
-double depth_crushed_of_both(const PairView& view, const PolygonCorner& corner, const Vec3& n) {
-    const CrushedIce& crushed = view.scene.crushed;
-    double depth = 0.0;
-    if (!crushed.is_whole(view.pair.a))
-        depth += crushed.depth_of(view.pair.a, nearest_sphere(view.shape_a, corner.point), n);
-    if (!crushed.is_whole(view.pair.b))
-        depth += crushed_depth(view, nearest_sphere(view.shape_b, view.to_b(corner.point)), n);
-    return depth;
-}
-
-}  // namespace
-
 bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule) {
     if (rule.normal != NormalRule::surface) return false;
     if (pair.a == static_cast<std::int32_t>(kShip))
@@ -68,10 +53,7 @@ void make_polygon_contacts(const PairView& view, const ContactRule& rule,
         contact.patch.depth = -corner.gap;
         contact.region = -1;
         contact.crushes_a = false;
-        if (rigid) {
-            contact.gap += depth_crushed_of_both(view, corner, normal);
-            continue;
-        }
+        if (rigid) continue;
         // Crushing and regions need spheres: those nearest to the corner lend share and patch.
         contact.sphere_a = nearest_sphere(view.shape_a, corner.point);
         contact.sphere_b = nearest_sphere(view.shape_b, view.to_b(corner.point));
