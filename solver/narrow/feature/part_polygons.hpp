@@ -28,7 +28,7 @@ struct PartsWork {
     ClippingWork clipping;
     ContactPolygon polygon;          ///< of two parts, then of all with one normal
     std::vector<MetCorner> corners;  ///< of all parts
-    std::vector<LostParts> lost;
+    std::vector<LostParts> lost;     ///< overlapping parts without a corner
 };
 
 /// Finds the corners of the polygons in which two bodies meet. Each convex part of a meets each
