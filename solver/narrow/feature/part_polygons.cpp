@@ -79,9 +79,9 @@ double depth_with_cuts(const SolidPart& a, const SolidPart& b, const RelativePos
     return -find_axes(a.closed, b.closed, pose, 0.0).widest();
 }
 
-// Adds corners of parts that overlap deeper than all corners found. Where an edge passes over a
-// hollow corner, the rims of two parts end at the cut between them, and both parts have the
-// crossing beyond the end: it is at the end then. The part's own cuts bound its depth.
+// Adds corners of parts that overlap deeper than all corners found. An edge may pass over a hollow
+// corner. The rims of two parts end there, at the cut between them, and the edge crosses both lines
+// beyond these ends. The corner is at the end, and the cuts bound its depth.
 void add_lost(const RelativePose& pose, PartsWork& work) {
     double least = 0.0;  // gap of the corners found [m]
     for (const MetCorner& c : work.corners) least = std::min(least, c.corner.gap);
@@ -97,9 +97,9 @@ void add_lost(const RelativePose& pose, PartsWork& work) {
     }
 }
 
-// The share of the depth along their axis to which two parts overlap with their cuts [-] below
-// which they only meet beside a cut: the true contact is that of the part behind it. A larger one
-// loses contacts near cuts, a smaller one leaves contacts along wrong axes.
+// Least depth of two parts with their cuts as planes, divided by their depth without [-]. Parts
+// with a smaller ratio overlap by a thin piece beside a cut, and the neighbouring part has the
+// contact. A larger value loses contacts near cuts, a smaller one keeps contacts along wrong axes.
 constexpr double kLeastDepth = 0.5;
 
 // Appends the corners in which two parts meet.
@@ -113,14 +113,14 @@ void meet_parts(const SolidPart& a, const SolidPart& b, const RelativePose& pose
     make_contact_polygon(a.solid, b.solid, pose, axes, most, clipping, polygon);
     if (polygon.corners.empty() && axes.widest() < 0.0 && is_edge_axis(axes))
         lost.push_back({&a, &b, axes, number});
-    // deeper than the range of contacts: what of it is the other parts'?
+    // deeper than the range of contacts: the overlap may be the neighbouring part's
     if (!polygon.corners.empty() && axes.widest() < -most &&
         depth_with_cuts(a, b, pose) < -kLeastDepth * axes.widest())
         return;
     for (PolygonCorner& corner : polygon.corners) {
         corner.id |= number << 32;
-        // A corner of the reference is beside the incident face by up to the gap, and a face that
-        // is nearly upright is far below there: no point is deeper than the axis.
+        // A corner may lie beside the incident face by up to the gap. A nearly upright face is far
+        // below the reference there, but no point of the solid is deeper than the axis says.
         corner.gap = std::max(corner.gap, axes.widest());
         corners.push_back({corner, polygon.normal});
     }

@@ -16,7 +16,7 @@ struct MetCorner {
     Vec3 normal;  ///< of its polygon: unit, from a to b, a's axes
 };
 
-/// Two parts that overlap, of which no corner was found.
+/// Two overlapping parts without a corner.
 struct LostParts {
     const SolidPart *a, *b;
     SeparatingAxes axes;   ///< without the cuts
@@ -35,9 +35,9 @@ struct PartsWork {
 /// part of b (make_contact_polygon). Corners with a gap of more than `most` [m] are left out. At
 /// most four corners with the same normal are kept.
 ///
-/// Overlapping parts whose edges cross beyond an end, at a hollow corner, have a corner at that end
-/// if they are deeper than all others. Parts that overlap by more than `most` have corners only if
-/// they are half as deep with their cuts as planes: else the part behind the cut has them.
+/// At a hollow corner two edges may cross beyond the end of one of them. That end is then a corner
+/// if the parts overlap deeper than all others. Corners deeper than `most` count only if the parts,
+/// with their cuts as planes, overlap by half that depth; else the neighbouring part has them.
 ///
 /// Parts that meet in one face of a body carry no more than the whole face does; a cut between two
 /// parts has no corners. Bodies without parts have none.
