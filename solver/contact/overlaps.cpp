@@ -31,14 +31,6 @@ constexpr double kMostInStep = 0.2;
 // step opens a fifth at most. More cost time, fewer leave more to the next steps.
 constexpr int kSeparationIterations = 10;
 
-// The smaller one of the bodies' spheres [m]: lengths of a contact count in it.
-double radius_of(const Scene& scene, const Constraint& c) {
-    const auto of = [&](std::int32_t body) {
-        return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])].largest_radius;
-    };
-    return std::min(of(c.a), of(c.b));
-}
-
 double gap_after(const Bodies& bodies, const Constraint& c, double dt) {
     return c.gap + dt * relative_velocity(bodies, c).dot(c.normal);
 }
@@ -48,6 +40,13 @@ bool is_of_ship(const Bodies& bodies, const Constraint& c) {
 }
 
 }  // namespace
+
+double radius_of(const Scene& scene, const Constraint& c) {
+    const auto of = [&](std::int32_t body) {
+        return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])].largest_radius;
+    };
+    return std::min(of(c.a), of(c.b));
+}
 
 Overlaps::Push Overlaps::push_of(const Bodies& bodies, const Constraint& c, std::size_t row,
                                  double target) {
@@ -123,7 +122,7 @@ void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
     if (law.is_rigid()) return;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
-        if (!c.is_at_bound()) continue;
+        if (contacts[k].is_of_solids() || !c.is_at_bound()) continue;
         // what the step leaves at the final velocities; an opening contact has crushed nothing
         // more
         const double gap = gap_after(bodies, c, dt);

@@ -17,6 +17,9 @@ namespace ice {
 /// floes that only touch.
 constexpr double kToleratedOverlap = 0.02;
 
+/// The smaller one of the bodies' spheres [m]: lengths of a contact count in it.
+double radius_of(const Scene& scene, const Constraint& c);
+
 /// Small moves that shrink overlaps; they change poses, never velocities or reported forces.
 struct PositionCorrections {
     std::vector<Vec3> shift;  ///< by body, world axes [m]
@@ -50,9 +53,10 @@ public:
     void correct_positions(const Scene& scene, const std::vector<Constraint>& constraints,
                            double dt, PositionCorrections& out);
 
-    /// Ice at its bound is crushed: the overlap that the step leaves at such a contact is taken off
-    /// the ice for good. A second contact that presses on a sphere extends the move only
-    /// where the first is shorter along its normal. Rigid ice has no bound.
+    /// Spheres of ice at their bound are crushed: the overlap that the step leaves at such a
+    /// contact is taken off the ice for good. A second contact that presses on a sphere extends
+    /// the move only where the first is shorter along its normal. Rigid ice has no bound. Of solids
+    /// CrushSolids does the same.
     /// @param dt  time step [s]
     /// @pre called before the poses advance, after resolve_rest, with the constraints' law and dt
     void crush(Scene& scene, const std::vector<Contact>& contacts,

@@ -85,7 +85,7 @@ void Recess::find_moves(const Scene& scene, double dt, const std::vector<Contact
         // (13a): the increase of depth since the last step, less the part that the motion
         // explains, at most down to the deepest neighbour. Whole ice has no recess.
         const Contact& c = contacts[k];
-        if (c.is_rigid()) continue;
+        if (c.is_of_solids()) continue;  // cut right away, and as a whole
         const Place place = place_of(c);
         const double deeper = -c.gap - last_depth(c, at);
         if (deeper <= 0.0 || scene.crushed.is_whole(place.body) || !has_past(c)) continue;
@@ -128,6 +128,7 @@ void Recess::move_spheres(Scene& scene, const ContactLaw& law, double dt,
     // The contacts were found before their spheres moved: without this the step would push at an
     // overlap that no longer exists.
     for (std::size_t k = 0; k < contacts.size() && !moves_.empty(); ++k) {
+        if (contacts[k].is_of_solids()) continue;
         const Place place = place_of(contacts[k]);
         const auto move =
             std::lower_bound(moves_.begin(), moves_.end(), place,

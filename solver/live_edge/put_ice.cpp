@@ -38,6 +38,7 @@ void put_ice(Scene& scene, std::size_t body, Shape shape, const PutIce& as) {
     Bodies& b = scene.bodies;
     const Shape& old = scene.shapes[static_cast<std::size_t>(b.shape[body])];
     make_whole(scene.crushed, static_cast<std::int32_t>(body), old.center.size());
+    scene.crushed_solids.forget(static_cast<std::int32_t>(body));
     // afloat at its own draught, without a velocity relative to the ice: no force acts at first
     const double height = floating_height(shape, Mat3::Identity(), as.share);
     put_shape(scene, body, std::move(shape), as.density);

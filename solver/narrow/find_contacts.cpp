@@ -78,10 +78,10 @@ void find_lost(const PairView& view, double apart, double most, FoundBatch::Pair
     find_deep_seats(view, pair.spheres, pair.candidates, pair.seats);
 }
 
-// The exact axes of two convex solids; early out where they are farther apart than `enough` [m].
+// The exact axes of two convex floes; early out where they are farther apart than `enough` [m].
 SeparatingAxes axes_of(const PairView& view, double enough) {
-    return find_axes(view.shape_a.convex, view.shape_b.convex,
-                     {view.rotation_ab, view.translation_ab}, enough);
+    const SolidPair solids = solids_of(view);
+    return find_axes(solids.a, solids.b, solids.pose, enough);
 }
 
 }  // namespace
@@ -92,11 +92,15 @@ void ContactFinder::begin_batches() {
 }
 
 // Keeps the corners of the polygon in which two solids meet, if they do.
-void ContactFinder::meet(const PairView& view, const SeparatingAxes& axes, double most,
-                         Found& found, FoundBatch& batch) {
+void ContactFinder::meet(const PairView& view, ContactRule rule, const SeparatingAxes& axes,
+                         double most, Found& found, FoundBatch& batch) {
     if (axes.widest() > most) return;
-    find_polygon(view, axes, most, batch.pair.clipping, batch.pair.polygon);
-    keep_polygon(found, batch);
+    const SolidPair solids = solids_of(view);
+    find_polygon(solids, axes, most, batch.pair.clipping, batch.pair.polygon);
+    if (!rule.crushes) return keep_polygon(found, batch);
+    found.corners.first = batch.corners.size();
+    append_pressed(solids, batch.pair.polygon, batch.pair.section, batch.corners);
+    found.corners.count = batch.corners.size() - found.corners.first;
 }
 
 // The same for bodies in several parts.
@@ -139,9 +143,13 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
         const PairView view(scene, pairs[k]);
         found_[k].batch = &batch;
-        if (meets_in_polygon(scene, pairs[k], rule)) {
-            if (rule.crushes) return meet_parts(view, most, found_[k], batch);
-            return meet(view, axes_of(view, most), most, found_[k], batch);
+        switch (pair_rule_of(scene, pairs[k], rule)) {
+            case PairRule::parts:
+                return meet_parts(view, most, found_[k], batch);
+            case PairRule::solids:
+                return meet(view, rule, axes_of(view, most), most, found_[k], batch);
+            case PairRule::spheres:
+                break;
         }
         batch.pair.candidates.clear();
         const double apart = separation(view);
@@ -163,7 +171,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     states_.resize(pairs.size());
     parallel_for(pairs.size(), kSerialStates, [&](std::size_t k) {
         states_[k] = cache_.state(k, scene, pairs[k], motion, dt, margin,
-                                  meets_in_polygon(scene, pairs[k], rule));
+                                  pair_rule_of(scene, pairs[k], rule));
     });
     pairs_to_measure_.clear();
     for (std::size_t k = 0; k < pairs.size(); ++k)
@@ -177,10 +185,10 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
         if (states_[k] != PairCache::State::polygon)
             find_listed(scene, pairs[k], k, motion, {dt, margin, most}, found_[n], batch);
-        else if (rule.crushes)
+        else if (pair_rule_of(scene, pairs[k], rule) == PairRule::parts)
             meet_parts(PairView(scene, pairs[k]), most, found_[n], batch);
         else
-            meet(PairView(scene, pairs[k]), cache_.axes(k), most, found_[n], batch);
+            meet(PairView(scene, pairs[k]), rule, cache_.axes(k), most, found_[n], batch);
     });
     // Lists are stored by one thread, in the order of the pairs: their places do not depend on the
     // threads.
@@ -213,7 +221,7 @@ void ContactFinder::find_listed(const Scene& scene, BodyPair pair, std::size_t k
         near = found.spheres.of(batch.spheres);
         cache_.renew(k, view, motion, skin,
                      {std::min(least - within.margin, skin.distance), seats});
-        if (cache_.state(k, scene, pair, motion, within.step, within.margin, false) ==
+        if (cache_.state(k, scene, pair, motion, within.step, within.margin, PairRule::spheres) ==
             PairCache::State::separated)
             return;
     }
@@ -279,19 +287,18 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
         out.resize(out.size() + corners.size());
         make_polygon_contacts(view, how, corners, out.data() + (out.size() - corners.size()));
     };
-    if (meets_in_polygon(scene, pair, how)) {
-        if (how.crushes) {
-            find_part_polygons(view.shape_a.parts, view.shape_b.parts,
-                               {view.rotation_ab, view.translation_ab}, margin, found.parts,
-                               corners);
-            found.polygon.corners.clear();
-            return append_polygon();
-        }
+    const PairRule kind = pair_rule_of(scene, pair, how);
+    if (kind == PairRule::parts)
+        find_part_polygons(view.shape_a.parts, view.shape_b.parts,
+                           {view.rotation_ab, view.translation_ab}, margin, found.parts, corners);
+    if (kind == PairRule::solids) {
         const SeparatingAxes axes = axes_of(view, margin);
         if (axes.widest() <= margin)
-            find_polygon(view, axes, margin, found.clipping, found.polygon);
-        return append_polygon();
+            find_polygon(solids_of(view), axes, margin, found.clipping, found.polygon);
+        if (how.crushes) append_pressed(solids_of(view), found.polygon, found.section, corners);
+        if (how.crushes) found.polygon.corners.clear();
     }
+    if (kind != PairRule::spheres) return append_polygon();
     const double apart = separation(view);
     if (apart > margin) return;
     const bool centres = how.normal == NormalRule::centres;

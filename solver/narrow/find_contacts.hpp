@@ -28,13 +28,13 @@ namespace ice {
 /// that meet in a convex edge only the one with the smaller penetration (reduce_manifold). So a
 /// face has as many contacts as incident spheres, not as many as pairs of spheres.
 ///
-/// Convex floes that cannot be crushed meet as solids instead: their contacts are the corners of
-/// the polygon in which they meet along their separating axis (contact_polygon), at most four.
-/// Pieces of level ice do so, too: each convex part of one meets each part of the other
-/// (find_part_polygons).
+/// Convex floes meet as solids instead: their contacts are the corners of the polygon in which they
+/// meet along their separating axis (contact_polygon), at most four. Pieces of level ice do so,
+/// too: each convex part of one meets each part of the other (find_part_polygons).
 ///
-/// Convex bodies that overlap deeper than any contact of their spheres meet in that polygon, too;
-/// of other solids each seat that lies so deep in the other one is a contact (find_deep_seats).
+/// A convex hull and a convex floe that overlap deeper than any contact of their spheres meet in
+/// that polygon, too; of other solids each seat that lies so deep in the other one is a contact
+/// (find_deep_seats).
 ///
 /// Bodies that are apart (separation) by more than the margin have none.
 ///
@@ -81,8 +81,8 @@ private:
     };
     // Empties the threads' results.
     void begin_batches();
-    static void meet(const PairView& view, const SeparatingAxes& axes, double most, Found& found,
-                     FoundBatch& batch);
+    static void meet(const PairView& view, ContactRule rule, const SeparatingAxes& axes,
+                     double most, Found& found, FoundBatch& batch);
     static void meet_parts(const PairView& view, double most, Found& found, FoundBatch& batch);
     // Contacts of row k from its neighbour list, which is made anew where its skin is used up.
     void find_listed(const Scene& scene, BodyPair pair, std::size_t k, const MotionBounds& motion,

@@ -48,6 +48,7 @@ struct FoundBatch {
         std::vector<Candidate> candidates;
         std::vector<DeepSeat> seats;
         ContactPolygon polygon;
+        SectionWork section;
 
         // work memory of the functions that find and make these
         std::vector<TypesRow> rows;

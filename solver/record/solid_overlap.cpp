@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/narrow/feature/way_out.hpp"
 
@@ -18,8 +19,22 @@ constexpr std::size_t kMostVertices = 1000;
 // touch as overlapping.
 constexpr double kOnSurface = 1e-9;
 
-const Shape& shape_of(const Scene& scene, std::int32_t body) {
-    return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
+const Shape& shape_of(const Scene& scene, std::int32_t body) { return scene.shape_of(body); }
+
+// What floes have left of a body's solid in a pair with another one; null where it is whole. The
+// ship and floes that are not convex meet the whole solid.
+const ConvexPiece* left_of(const Scene& scene, std::int32_t body, std::int32_t other) {
+    const bool meets =
+        other != static_cast<std::int32_t>(kShip) && !shape_of(scene, other).convex.empty();
+    return meets ? scene.crushed_solids.solid_of(body) : nullptr;
+}
+
+// Depth of a point below the nearest plane of a solid [m]; negative outside.
+double depth_in(const ConvexPiece& solid, const Vec3& p) {
+    double depth = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < solid.plane_count(); ++k)
+        depth = std::min(depth, solid.offsets[k] - solid.normals[k].dot(p));
+    return depth;
 }
 
 // A body's box in another one's axes, or in the world's for other < 0.
@@ -94,12 +109,13 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         bodies.rotation[b].transpose() * (bodies.position[a] - bodies.position[b]);
     const Shape &points = shape_of(scene, a), &solid = shape_of(scene, b);
     const Eigen::AlignedBox3d seen = box_in(scene, b, a);
+    const ConvexPiece *left_a = left_of(scene, a, b), *left_b = left_of(scene, b, a);
     Vec3 shallow = Vec3::Zero();  // a point in b's axes; none within `room` of it is deeper
     double room = 0.0;
     const auto add_point = [&](const Vec3& at, std::int32_t sphere) {  // -1: a vertex
         // two cheap tests first; a point within `room` of a shallow one is no deeper than the
         // best
-        if (!seen.contains(at)) return;
+        if (!seen.contains(at) || (left_a && depth_in(*left_a, at) < -kOnSurface)) return;
         const Vec3 p = rotation * at + translation;
         if (!solid.box.contains(p) || (p - shallow).norm() < room) return;
         const Foot foot = solid.surface->closest(p);
@@ -114,6 +130,7 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
             return;
         // ice that contacts have crushed there is left out
         depth = way_out(scene, b, p, foot).depth;
+        if (left_b) depth = std::min(depth, depth_in(*left_b, p));
         if (depth > out.depth) out = {depth, bodies.position[b] + bodies.rotation[b] * p};
     };
     for (std::int32_t k = 0; k < std::ssize(points.center); ++k) {
@@ -122,6 +139,8 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         if (!scene.crushed.is_whole(a) && !points.box.contains(center)) continue;
         add_point(center + points.radius[k] * points.normal[k], k);
     }
+    if (left_a)
+        for (std::size_t k = 0; k < left_a->corners.size(); ++k) add_point(left_a->corners[k], -1);
     // a vertex of crushed ice may be crushed away
     if (scene.crushed.is_whole(a) && points.mesh.vertices.size() <= kMostVertices)
         for (const Vec3& v : points.mesh.vertices) add_point(v, -1);

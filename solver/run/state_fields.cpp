@@ -42,6 +42,7 @@ void carry(CheckpointFile& file, World& w) {
     file.carry("crushed.first", w.scene.crushed.first);
     file.carry("crushed.recess", w.scene.crushed.displacement);
     file.carry("crushed.deepest", w.scene.crushed.deepest);
+    w.scene.crushed_solids.carry(file);
 
     // Data for the next step alone: impulses to begin with, and the depths that distinguish a
     // recess from a motion. Neighbour lists are left out, because they are made anew with the same

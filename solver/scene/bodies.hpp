@@ -11,6 +11,7 @@
 #include "common/geometry/triangle_mesh.hpp"
 #include "solver/flow/water_flow.hpp"
 #include "solver/scene/crushed_ice.hpp"
+#include "solver/scene/crushed_solids.hpp"
 #include "solver/shape/shape.hpp"
 
 namespace ice {
@@ -126,12 +127,23 @@ struct Scene {
     int dimension = 3;          ///< 2: motion along x and z and about y alone
     std::vector<Shape> shapes;  ///< by row; row 0: hull
     Bodies bodies;
-    CrushedIce crushed;
+    CrushedIce crushed;                 ///< by the ship
+    CrushedSolids crushed_solids;       ///< by other floes
     WaterFlow water;                    ///< at rest unless the case says otherwise
     Vec3 ship_velocity = Vec3::Zero();  ///< [m/s]
     IceAtStart start;                   ///< set by build_scene()
     /// Area of the floes over the field's [-]; NaN unless all come from one field file.
     double concentration = std::numeric_limits<double>::quiet_NaN();
+
+    const Shape& shape_of(std::int32_t body) const {
+        return shapes[static_cast<std::size_t>(bodies.shape[static_cast<std::size_t>(body)])];
+    }
+    /// The solid of a convex floe without the ice that other floes have crushed, body axes; empty
+    /// where the floe is not convex.
+    const ConvexPiece& solid_of(std::int32_t body) const {
+        const ConvexPiece* crushed_solid = crushed_solids.solid_of(body);
+        return crushed_solid ? *crushed_solid : shape_of(body).convex;
+    }
 };
 
 /// Number of the ship among the bodies. Contacts have a < b, so the ship is always their a; loops

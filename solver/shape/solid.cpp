@@ -20,11 +20,6 @@ constexpr double kSameNormal = 1.0 - 5e-11;
 // that are a little hollow for convex; smaller finds no float mesh convex.
 constexpr double kVertexRounding = 1e-6;
 
-struct Plane {
-    Vec3 normal;
-    double offset;
-};
-
 // A sort key: first the coordinates that mirror images about y = 0 have in common, then y.
 std::tuple<double, double, double, double> mirror_key(const Vec3& v) {
     return {v.x(), std::abs(v.y()), v.z(), v.y()};
@@ -57,7 +52,7 @@ bool list_points(const TriangleMesh& mesh, double same, std::vector<Vec3>& out) 
 
 // The planes of a convex mesh; false where it is none, or has too many.
 bool list_planes(const TriangleMesh& mesh, const std::vector<Vec3>& points, double flat,
-                 std::vector<Plane>& out) {
+                 std::vector<HalfSpace>& out) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
         const Vec3 across = (b - a).cross(c - a);
@@ -65,7 +60,7 @@ bool list_planes(const TriangleMesh& mesh, const std::vector<Vec3>& points, doub
         if (across.norm() <= flat * longest) continue;
         const Vec3 n = across / across.norm();
         if (std::any_of(out.begin(), out.end(),
-                        [&](const Plane& p) { return p.normal.dot(n) > kSameNormal; }))
+                        [&](const HalfSpace& p) { return p.normal.dot(n) > kSameNormal; }))
             continue;
         // Where another vertex lies before the facet's plane the mesh is not convex.
         const double offset = foremost(points, n);
@@ -73,16 +68,16 @@ bool list_planes(const TriangleMesh& mesh, const std::vector<Vec3>& points, doub
         if (out.size() == ConvexPiece::kMost) return false;
         out.push_back({n, offset});
     }
-    std::sort(out.begin(), out.end(), [](const Plane& l, const Plane& r) {
+    std::sort(out.begin(), out.end(), [](const HalfSpace& l, const HalfSpace& r) {
         return mirror_key(l.normal) < mirror_key(r.normal);
     });
     return out.size() > 3;
 }
 
 // Keeps the points in which three planes or more meet.
-void keep_corners(const std::vector<Plane>& planes, double flat, std::vector<Vec3>& points) {
+void keep_corners(const std::vector<HalfSpace>& planes, double flat, std::vector<Vec3>& points) {
     std::erase_if(points, [&](const Vec3& p) {
-        return std::count_if(planes.begin(), planes.end(), [&](const Plane& plane) {
+        return std::count_if(planes.begin(), planes.end(), [&](const HalfSpace& plane) {
                    return plane.normal.dot(p) >= plane.offset - flat;
                }) < 3;
     });
@@ -91,10 +86,10 @@ void keep_corners(const std::vector<Plane>& planes, double flat, std::vector<Vec
 }
 
 // The corners that lie in both planes and are farthest apart: their edge, if they have one.
-void add_edge(const std::vector<Plane>& planes, const std::vector<Vec3>& corners, std::int32_t left,
-              std::int32_t right, double flat, std::vector<SolidEdge>& out) {
-    const Plane &l = planes[static_cast<std::size_t>(left)],
-                &r = planes[static_cast<std::size_t>(right)];
+void add_edge(const std::vector<HalfSpace>& planes, const std::vector<Vec3>& corners,
+              std::int32_t left, std::int32_t right, double flat, std::vector<SolidEdge>& out) {
+    const HalfSpace &l = planes[static_cast<std::size_t>(left)],
+                    &r = planes[static_cast<std::size_t>(right)];
     // of all corners in both planes the first and the last along their line
     const Vec3 along = l.normal.cross(r.normal);
     SolidEdge edge{-1, -1, left, right};
@@ -166,44 +161,61 @@ VectorBlocks::VectorBlocks(const std::vector<Vec3>& list) : count_(list.size()) 
     }
 }
 
+namespace {
+
+// Fills the blocks of edges from their ends and planes.
+void fill_edge_blocks(ConvexPiece& piece) {
+    std::vector<Vec3> middle, along, left, right;
+    for (const SolidEdge& e : piece.edges) {
+        const Vec3 from = piece.corners[static_cast<std::size_t>(e.begin)],
+                   to = piece.corners[static_cast<std::size_t>(e.end)];
+        middle.push_back(0.5 * (from + to));
+        along.push_back((to - from).normalized());
+        left.push_back(piece.normals[static_cast<std::size_t>(e.left)]);
+        right.push_back(piece.normals[static_cast<std::size_t>(e.right)]);
+    }
+    piece.edge_middle = VectorBlocks(middle);
+    piece.edge_along = VectorBlocks(along);
+    piece.edge_left = VectorBlocks(left);
+    piece.edge_right = VectorBlocks(right);
+}
+
+}  // namespace
+
 ConvexPiece make_convex_piece(const TriangleMesh& mesh) {
     const double flat = kVertexRounding * size_of(mesh.vertices);
     std::vector<Vec3> points;
-    std::vector<Plane> planes;
+    std::vector<HalfSpace> planes;
     if (!list_points(mesh, flat, points) || !list_planes(mesh, points, flat, planes)) return {};
     keep_corners(planes, flat, points);
-    ConvexPiece out;
     if (points.size() > ConvexPiece::kMost) return {};
+    std::vector<SolidEdge> edges;
     for (std::int32_t l = 0; l < std::ssize(planes); ++l)
         for (std::int32_t r = l + 1; r < std::ssize(planes); ++r)
-            add_edge(planes, points, l, r, flat, out.edges);
-    std::vector<Vec3> normals, middle, along, left, right;
-    for (const Plane& p : planes) {
+            add_edge(planes, points, l, r, flat, edges);
+    return piece_of(planes, points, std::move(edges));
+}
+
+ConvexPiece piece_of(const std::vector<HalfSpace>& planes, const std::vector<Vec3>& corners,
+                     std::vector<SolidEdge> edges) {
+    ConvexPiece out;
+    std::vector<Vec3> normals;
+    for (const HalfSpace& p : planes) {
         // a face without a closed loop of edges: the planes bound no convex solid
-        out.loops.push_back(loop_round(out.edges, static_cast<std::int32_t>(normals.size())));
+        out.loops.push_back(loop_round(edges, static_cast<std::int32_t>(normals.size())));
         if (out.loops.back().empty()) return {};
-        out.side_planes.push_back(side_planes_of(out.loops.back(), p.normal, points));
+        out.side_planes.push_back(side_planes_of(out.loops.back(), p.normal, corners));
         normals.push_back(p.normal);
         out.offsets.push_back(p.offset);
     }
     // Euler's formula: with other numbers the faces do not close round a solid
-    if (points.size() + planes.size() != out.edges.size() + 2) return {};
-    for (const SolidEdge& e : out.edges) {
-        const Vec3 &from = points[static_cast<std::size_t>(e.begin)],
-                   &to = points[static_cast<std::size_t>(e.end)];
-        middle.push_back(0.5 * (from + to));
-        along.push_back((to - from).normalized());
-        left.push_back(normals[static_cast<std::size_t>(e.left)]);
-        right.push_back(normals[static_cast<std::size_t>(e.right)]);
-    }
+    if (corners.size() + planes.size() != edges.size() + 2) return {};
     out.normals = VectorBlocks(normals);
     // kernels read offsets in whole blocks, too
     while (out.offsets.size() % VectorBlock::kLanes != 0) out.offsets.push_back(out.offsets.back());
-    out.corners = VectorBlocks(points);
-    out.edge_middle = VectorBlocks(middle);
-    out.edge_along = VectorBlocks(along);
-    out.edge_left = VectorBlocks(left);
-    out.edge_right = VectorBlocks(right);
+    out.corners = VectorBlocks(corners);
+    out.edges = std::move(edges);
+    fill_edge_blocks(out);
     return out;
 }
 

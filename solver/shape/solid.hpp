@@ -75,6 +75,18 @@ struct ConvexPiece {
     bool empty() const { return normals.size() == 0; }
 };
 
+/// A half-space normal . x <= offset.
+struct HalfSpace {
+    Vec3 normal;    ///< outward, unit
+    double offset;  ///< [m]
+};
+
+/// The polyhedron with these planes, corners and edges, in this order; empty where the edges do not
+/// close round every plane.
+/// @param edges  each once
+ConvexPiece piece_of(const std::vector<HalfSpace>& planes, const std::vector<Vec3>& corners,
+                     std::vector<SolidEdge> edges);
+
 /// The convex polyhedron of a closed mesh; empty where the mesh is not convex, has too many planes
 /// or corners, or is flat.
 ///

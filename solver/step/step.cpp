@@ -115,6 +115,7 @@ void step(World& w) {
     timed(w, Stage::contact, [&] {
         w.overlaps.correct_positions(w.scene, w.constraints, dt, w.corrections);
         w.overlaps.crush(w.scene, w.contacts, w.constraints, law, dt);
+        w.crush_solids.cut(w.scene, w.contacts, w.constraints, law, dt);
     });
     timed(w, Stage::integrate, [&] {  // 9 move
         enter_step(w.scene, w.parameters, w.constraints, w.loads, w.corrections, w.start, w.ledger);

@@ -7,6 +7,7 @@
 
 #include "solver/broad/find_pairs.hpp"
 #include "solver/case/case.hpp"
+#include "solver/contact/crush_solids.hpp"
 #include "solver/contact/overlaps.hpp"
 #include "solver/contact/recess.hpp"
 #include "solver/contact/solve_contacts.hpp"
@@ -47,6 +48,7 @@ struct World {
     ContactFinder finder;
     ContactSolver solver;
     Overlaps overlaps;
+    CrushSolids crush_solids;
     Recess recess;
     BentFloes bent;
     StepStart start;  ///< of the present step

@@ -31,7 +31,8 @@ ContactPolygon meet(const ConvexPiece& a, const ConvexPiece& b, const RelativePo
                     double most) {
     ContactPolygon out;
     ClippingWork work;
-    make_contact_polygon(a, b, pose, find_axes(a, b, pose, kAll), most, work, out);
+    make_contact_polygon(a, b, pose, find_axes(a, b, pose, kAll), IncidentFace::at_deepest_corner,
+                         most, work, out);
     return out;
 }
 
@@ -186,7 +187,8 @@ TEST_CASE("a pair stays found whatever its depth, with its true depth and the sh
     CHECK(deepest(found) == Near(-depth).epsilon(1e-6));  // normals of creases are floats
     for (const Contact& c : found) {
         CHECK(c.normal.dot(Vec3::Unit(axis)) > 0.999);
-        CHECK((c.sphere_b >= 0) == crushes);
+        CHECK(c.is_of_solids());
+        CHECK(std::isfinite(c.section) == crushes);
     }
 }
 

@@ -128,7 +128,7 @@ TEST_CASE("a box in a hollow corner meets both sides, at the true gaps", "[shape
     const double gap = GENERATE(1e-3, 0.0, -2e-3);
     const auto met = meet(kAngle, box(1, 1), upright(0.5 + gap, 0.5 + 0.5 * gap), 5e-3);
     int along_x = 0, along_y = 0;
-    for (const auto& [corner, normal] : met) {
+    for (const auto& [corner, normal, section, crushes_a] : met) {
         if ((normal - Vec3::UnitX()).norm() < tolerance(kRounding)) {
             ++along_x;
             CHECK(corner.gap == Near(gap).margin(kRounding));
@@ -148,7 +148,7 @@ TEST_CASE("a sharp horn meets a face with its tip", "[shape][analytic]") {
     const double gap = GENERATE(1e-4, -1e-3);
     const auto met = meet(horned, box(1, 1), upright(1.5 + gap, 0.1), 1e-3);
     REQUIRE(met.size() == 2);
-    for (const auto& [corner, normal] : met) {
+    for (const auto& [corner, normal, section, crushes_a] : met) {
         CHECK((normal - Vec3::UnitX()).norm() < tolerance(kRounding));
         CHECK(corner.gap == Near(gap).margin(kRounding));
         CHECK(std::abs(corner.point.y()) < 1e-3);
@@ -161,7 +161,7 @@ TEST_CASE("a box that slides over cuts meets nothing along its way", "[shape][an
     for (double x = -2.4; x <= 2.4; x += 0.0373) {
         const auto met = meet(kFork, box(1, 1), upright(x, -1.5 - gap), 0.05);
         REQUIRE(met.size() >= 4);
-        for (const auto& [corner, normal] : met) {
+        for (const auto& [corner, normal, section, crushes_a] : met) {
             CHECK((normal + Vec3::UnitY()).norm() < tolerance(kRounding));
             CHECK(corner.gap == Near(gap).margin(kRounding));
         }
@@ -173,7 +173,7 @@ TEST_CASE("a box that slides over cuts meets nothing along its way", "[shape][an
         const auto met = meet(kFork, box(1, 1), {tilt, Vec3(x, -0.5, 1.0 + 6e-4)}, 0.05);
         REQUIRE(!met.empty());
         CAPTURE(x);
-        for (const auto& [corner, normal] : met) {
+        for (const auto& [corner, normal, section, crushes_a] : met) {
             CAPTURE(corner.gap, normal.transpose(), corner.point.transpose());
             CHECK(normal.z() > 0.99);
         }
@@ -194,7 +194,7 @@ TEST_CASE("pieces of level ice meet each other as rigid whole solids", "[narrow]
     ContactFinder().find(w.scene, pairs, rule, 0.01, 1e-3, contacts);
     REQUIRE(contacts.size() == 4);
     for (const Contact& c : contacts) {
-        CHECK(c.is_rigid());
+        CHECK(c.is_of_solids());
         CHECK(c.normal == Vec3::UnitX());
         CHECK(c.gap == Near(-deep).margin(kRounding));
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/plane_crossing.hpp"
 #include "common/math/ordered_products.hpp"
 
 namespace ice {
@@ -23,26 +24,38 @@ struct Meeting {
     const ConvexPiece& incident;
     RelativePose pose;  // of the incident piece
     std::size_t face;
+    IncidentFace choice;
 };
 
-// The plane of the incident piece that is turned most against the reference's face.
-std::size_t incident_plane(const Meeting& m, const Vec3& n) {
-    const Vec3 towards = ordered_transposed(m.pose.rotation, n);
+// The incident face: of the planes that `counts` names the one that is turned most against the
+// reference's face.
+template <class Counts>
+std::size_t most_opposed(const ConvexPiece& incident, const Vec3& towards, const Counts& counts) {
     std::size_t best = 0;
     double least = 2.0;
-    for (std::size_t k = 0; k < m.incident.plane_count(); ++k) {
-        const double facing = ordered_dot(m.incident.normals[k], towards);
-        if (facing >= least) continue;
+    for (std::size_t k = 0; k < incident.plane_count(); ++k) {
+        const double facing = ordered_dot(incident.normals[k], towards);
+        if (facing >= least || !counts(k)) continue;
         least = facing;
         best = k;
     }
     return best;
 }
 
-// Where the line through two points, at these heights over a plane, meets it: the same bits from
-// either end.
-Vec3 between(const Vec3& p, double height_p, const Vec3& q, double height_q) {
-    return (height_p * q - height_q * p) / (height_p - height_q);
+std::size_t incident_plane(const Meeting& m, const Vec3& n) {
+    const ConvexPiece& incident = m.incident;
+    const Vec3 towards = ordered_transposed(m.pose.rotation, n);
+    if (m.choice == IncidentFace::most_opposed)
+        return most_opposed(incident, towards, [](std::size_t) { return true; });
+    const auto height = [&](std::size_t k) { return ordered_dot(incident.corners[k], towards); };
+    double lowest = height(0);
+    for (std::size_t k = 1; k < incident.corners.size(); ++k) lowest = std::min(lowest, height(k));
+    return most_opposed(incident, towards, [&](std::size_t plane) {
+        const std::vector<std::int32_t>& loop = incident.loops[plane];
+        return std::any_of(loop.begin(), loop.end(), [&](std::int32_t corner) {
+            return height(static_cast<std::size_t>(corner)) <= lowest + PolygonTolerances::kPrefer;
+        });
+    });
 }
 
 // Keeps the part of work.polygon within the side plane, which is `slack` [m] farther out.
@@ -61,7 +74,7 @@ void clip(const SidePlane& side, double slack, std::uint32_t number, ClippingWor
         // edge where it comes in.
         if (inside) rest.push_back(polygon[k]);
         if (inside == (height[next] <= 0.0)) continue;
-        rest.push_back({between(polygon[k].at, height[k], polygon[next].at, height[next]),
+        rest.push_back({plane_crossing(polygon[k].at, height[k], polygon[next].at, height[next]),
                         inside ? number : polygon[k].edge});
     }
     polygon.swap(rest);
@@ -121,8 +134,8 @@ private:
             m_.reference.side_planes[m_.face][std::max(before, after) - kSidePlanes];
         const Vec3 &p = face_[edge], &q = face_[(edge + 1) % face_.size()];
         const double offset = side.offset + slack_;
-        return between(p, ordered_dot(side.outward, p) - offset, q,
-                       ordered_dot(side.outward, q) - offset);
+        return plane_crossing(p, ordered_dot(side.outward, p) - offset, q,
+                              ordered_dot(side.outward, q) - offset);
     }
     // On the incident face, where two side planes meet: over the reference's corner between them.
     Vec3 over_corner(std::size_t before, std::size_t after, const Vec3& clipped) const {
@@ -214,6 +227,49 @@ AxisKind widest_kind(const SeparatingAxes& axes) {
     return of_b ? AxisKind::face_b : AxisKind::face_a;
 }
 
+AxisKind exactly_widest_kind(const SeparatingAxes& axes) {
+    if (axes.widest() == axes.face_a) return AxisKind::face_a;
+    return axes.widest() == axes.face_b ? AxisKind::face_b : AxisKind::edges;
+}
+
+Vec3 normal_along(AxisKind kind, const ConvexPiece& a, const ConvexPiece& b,
+                  const RelativePose& pose, const SeparatingAxes& axes) {
+    if (kind == AxisKind::edges) return edge_axis(a, b, pose, axes.edge_a, axes.edge_b);
+    if (kind == AxisKind::face_a) return a.normals[static_cast<std::size_t>(axes.plane_a)];
+    return -ordered_product(pose.rotation, b.normals[static_cast<std::size_t>(axes.plane_b)]);
+}
+
+// Two pieces and what make_contact_polygon knows of them.
+struct Pieces {
+    const ConvexPiece &a, &b;
+    const RelativePose& pose;
+    const SeparatingAxes& axes;
+    IncidentFace choice;
+    double most;  // [m]
+};
+
+// The polygon along one kind of axis.
+void meet_along(AxisKind kind, const Pieces& p, ClippingWork& work, ContactPolygon& out) {
+    out.corners.clear();
+    out.normal = normal_along(kind, p.a, p.b, p.pose, p.axes);
+    if (kind == AxisKind::edges) {
+        if (p.axes.edges <= p.most) meet_edges(p.a, p.b, p.pose, p.axes, out);
+        return;
+    }
+    if (kind == AxisKind::face_a) {
+        const auto plane = static_cast<std::size_t>(p.axes.plane_a);
+        meet_faces({p.a, p.b, p.pose, plane, p.choice}, p.axes.face_a, p.most, 0u, work, out);
+        return;
+    }
+    // b's face is the reference: the same in b's axes, and back again
+    const RelativePose back{p.pose.rotation.transpose(),
+                            -ordered_transposed(p.pose.rotation, p.pose.translation)};
+    const auto plane = static_cast<std::size_t>(p.axes.plane_b);
+    meet_faces({p.b, p.a, back, plane, p.choice}, p.axes.face_b, p.most, 1u, work, out);
+    for (PolygonCorner& corner : out.corners)
+        corner.point = ordered_product(p.pose.rotation, corner.point) + p.pose.translation;
+}
+
 }  // namespace
 
 PolygonCorner edge_corner(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
@@ -228,34 +284,17 @@ bool is_edge_axis(const SeparatingAxes& axes) { return widest_kind(axes) == Axis
 
 Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                  const SeparatingAxes& axes) {
-    const AxisKind kind = widest_kind(axes);
-    if (kind == AxisKind::edges) return edge_axis(a, b, pose, axes.edge_a, axes.edge_b);
-    if (kind == AxisKind::face_a) return a.normals[static_cast<std::size_t>(axes.plane_a)];
-    return -ordered_product(pose.rotation, b.normals[static_cast<std::size_t>(axes.plane_b)]);
+    return normal_along(widest_kind(axes), a, b, pose, axes);
 }
 
 void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
-                          const SeparatingAxes& axes, double most, ClippingWork& work,
-                          ContactPolygon& out) {
-    out.corners.clear();
-    out.normal = axis_normal(a, b, pose, axes);
-    const AxisKind kind = widest_kind(axes);
-    if (kind == AxisKind::edges) {
-        if (axes.edges <= most) meet_edges(a, b, pose, axes, out);
-        return;
-    }
-    if (kind == AxisKind::face_a) {
-        const auto plane = static_cast<std::size_t>(axes.plane_a);
-        meet_faces({a, b, pose, plane}, axes.face_a, most, 0u, work, out);
-        return;
-    }
-    // b's face is the reference: the same in b's axes, and back again
-    const RelativePose back{pose.rotation.transpose(),
-                            -ordered_transposed(pose.rotation, pose.translation)};
-    meet_faces({b, a, back, static_cast<std::size_t>(axes.plane_b)}, axes.face_b, most, 1u, work,
-               out);
-    for (PolygonCorner& corner : out.corners)
-        corner.point = ordered_product(pose.rotation, corner.point) + pose.translation;
+                          const SeparatingAxes& axes, IncidentFace choice, double most,
+                          ClippingWork& work, ContactPolygon& out) {
+    const AxisKind preferred = widest_kind(axes), widest = exactly_widest_kind(axes);
+    meet_along(preferred, {a, b, pose, axes, choice, most}, work, out);
+    // An axis that is preferred by kPrefer may be that of a face beside the contact.
+    if (out.corners.empty() && widest != preferred)
+        meet_along(widest, {a, b, pose, axes, choice, most}, work, out);
 }
 
 }  // namespace ice

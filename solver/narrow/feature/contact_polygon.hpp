@@ -59,19 +59,31 @@ struct ClippingWork {
     std::vector<double> height;                ///< of the polygon over a side plane [m]
 };
 
+/// Which face of the incident piece is clipped.
+enum class IncidentFace {
+    /// Of the faces at its deepest corner the one that is turned most against the reference. Where
+    /// crushing has rounded the piece, a small face elsewhere may be turned more, but has none of
+    /// the deep corners.
+    at_deepest_corner,
+    /// The one of all faces. For parts of a body, whose deepest corner may lie on a cut, where no
+    /// face of the body ends.
+    most_opposed,
+};
+
 /// The corners of the polygon in which two convex pieces meet, as far as their gap is at most
 /// `most` [m]; keeps `out`'s memory.
 ///
 /// The axis with the widest gap decides. Where it is a face's, that face is the reference; of the
-/// other piece the face that is turned most against it is the incident one, clipped by the
-/// reference's side planes (Sutherland and Hodgman, Reentrant polygon clipping, CACM 17, 1974). Two
-/// edges meet in one point, midway between them where they are nearest. A face that has not touched
-/// yet may be past a side plane by its gap: it may come from beside. No corners where every gap
-/// exceeds `most`.
+/// other piece the face that is turned against it is the incident one (IncidentFace), clipped by
+/// the reference's side planes (Sutherland and Hodgman, Reentrant polygon clipping, CACM 17, 1974).
+/// Two edges meet in one point, midway between them where they are nearest. A face that has not
+/// touched yet may be past a side plane by its gap: it may come from beside. An axis that is
+/// preferred by PolygonTolerances::kPrefer may have no corner, because its face is beside the
+/// contact; then the widest one is taken. No corners where every gap exceeds `most`.
 /// @param axes  find_axes() of these pieces and this pose, all kinds
 void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
-                          const SeparatingAxes& axes, double most, ClippingWork& work,
-                          ContactPolygon& out);
+                          const SeparatingAxes& axes, IncidentFace choice, double most,
+                          ClippingWork& work, ContactPolygon& out);
 
 /// The point midway between the two edges of the widest axis where their lines are nearest, but no
 /// farther along either edge than its end; its gap is the axis's. @pre the axis is that of edges

@@ -110,7 +110,8 @@ void meet_parts(const SolidPart& a, const SolidPart& b, const RelativePose& pose
     if (axes.widest() > most) return;
     const Vec3 n = axis_normal(a.solid, b.solid, pose, axes);
     if (!faces(b, ordered_transposed(pose.rotation, n)) || !faces(a, -n)) return;
-    make_contact_polygon(a.solid, b.solid, pose, axes, most, clipping, polygon);
+    make_contact_polygon(a.solid, b.solid, pose, axes, IncidentFace::most_opposed, most, clipping,
+                         polygon);
     if (polygon.corners.empty() && axes.widest() < 0.0 && is_edge_axis(axes))
         lost.push_back({&a, &b, axes, number});
     // deeper than the range of contacts: the overlap may be the neighbouring part's

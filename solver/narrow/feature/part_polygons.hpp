@@ -2,6 +2,7 @@
 /// Contact manifold of two bodies in convex parts: the polygons in which the parts meet.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace ice {
 struct MetCorner {
     PolygonCorner corner;
     Vec3 normal;  ///< of its polygon: unit, from a to b, a's axes
+    /// Its share of the section on which the bodies press [m2]; infinite where no ice is crushed.
+    double section = std::numeric_limits<double>::infinity();
+    bool crushes_a = false;  ///< the ice that is crushed is a's; else b's
 };
 
 /// Two overlapping parts without a corner.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "common/geometry/triangle_mesh.hpp"
 #include "solver/narrow/manifold/patch.hpp"
@@ -20,10 +21,12 @@ struct Contact {
     double gap;                       ///< [m], negative where the surfaces overlap
     Patch patch;                      ///< the surface that presses here, for the bound (13)
     std::int32_t region;              ///< row of the hull's region_names; -1 between floes
-    bool crushes_a;                   ///< the ice that is crushed is sphere_a's; else sphere_b's
+    bool crushes_a;                   ///< the ice that is crushed is a's; else b's
+    /// Of solids that can be crushed: the section that presses here, A of (13) [m2].
+    double section = std::numeric_limits<double>::infinity();
 
-    /// Do solids meet that cannot be crushed? They have no spheres, and their force has no bound.
-    bool is_rigid() const { return sphere_a < 0; }
+    /// Do solids meet? They have no spheres.
+    bool is_of_solids() const { return sphere_a < 0; }
 };
 
 }  // namespace ice

@@ -11,34 +11,69 @@
 
 namespace ice {
 
-bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule) {
-    if (rule.normal != NormalRule::surface) return false;
-    if (pair.a == static_cast<std::int32_t>(kShip))
-        return false;  // the loads are recorded by its spheres
-    const auto meets = [&](std::int32_t i) {
-        const Shape& shape = scene.shapes[static_cast<std::size_t>(scene.bodies.shape[i])];
-        return rule.crushes ? !shape.parts.empty() : !shape.convex.empty();
-    };
-    return meets(pair.a) && meets(pair.b);
+namespace {
+
+// b's surface counts up to this far outside a [m]: faces that touch press with their whole
+// section. A larger value makes sections of edges and corners too large by as much of their depth.
+constexpr double kReach = 1e-3;
+
+// How far behind the surfaces that meet the solids are sliced, to tell which is more slender [-],
+// in sizes of the smaller one. Larger slices may lie behind thin ice, smaller ones see rounding.
+constexpr double kSliceDepth = 0.02;
+
+// Slices this near to each other [-] are equal: rounding of areas shall not decide.
+constexpr double kSameArea = 1e-6;
+
+}  // namespace
+
+PairRule pair_rule_of(const Scene& scene, BodyPair pair, const ContactRule& rule) {
+    // with the ship the loads are recorded by its spheres
+    if (rule.normal != NormalRule::surface || pair.a == static_cast<std::int32_t>(kShip))
+        return PairRule::spheres;
+    const Shape &a = scene.shape_of(pair.a), &b = scene.shape_of(pair.b);
+    if (rule.crushes && !a.parts.empty() && !b.parts.empty()) return PairRule::parts;
+    return a.convex.empty() || b.convex.empty() ? PairRule::spheres : PairRule::solids;
 }
 
-void find_polygon(const PairView& view, const SeparatingAxes& axes, double most, ClippingWork& work,
-                  ContactPolygon& polygon) {
-    ICE_ASSERT(is_convex_pair(view));
-    make_contact_polygon(view.shape_a.convex, view.shape_b.convex,
-                         {view.rotation_ab, view.translation_ab}, axes, most, work, polygon);
+void find_polygon(const SolidPair& solids, const SeparatingAxes& axes, double most,
+                  ClippingWork& work, ContactPolygon& polygon) {
+    make_contact_polygon(solids.a, solids.b, solids.pose, axes, IncidentFace::at_deepest_corner,
+                         most, work, polygon);
     reduce_polygon(kManifoldCorners, polygon);
     std::sort(
         polygon.corners.begin(), polygon.corners.end(),
         [](const PolygonCorner& l, const PolygonCorner& r) { return place_key(l) < place_key(r); });
 }
 
+void append_pressed(const SolidPair& solids, const ContactPolygon& polygon, SectionWork& work,
+                    std::vector<MetCorner>& out) {
+    if (polygon.corners.empty()) return;
+    const auto& [a, b, pose] = solids;
+    const Vec3& n = polygon.normal;
+    const PolygonCorner& deepest =
+        *std::min_element(polygon.corners.begin(), polygon.corners.end(),
+                          [](const auto& l, const auto& r) { return l.gap < r.gap; });
+    const double section = section_area(a, b, pose, n, std::max(deepest.gap, 0.0) + kReach, work) /
+                           static_cast<double>(polygon.corners.size());
+    const auto size = [](const ConvexPiece& piece) {
+        return (piece.corners[0] - piece.corners[piece.corners.size() - 1]).norm();
+    };
+    const double at = n.dot(deepest.point),
+                 behind = kSliceDepth * std::min(size(a), size(b)) + 0.5 * std::abs(deepest.gap);
+    const double of_a = slice_area(a, n, at - behind),
+                 of_b = slice_area(b, pose.rotation.transpose() * n,
+                                   at + behind - n.dot(pose.translation));
+    const bool crushes_a = of_a < (1.0 - kSameArea) * of_b;
+    for (const PolygonCorner& corner : polygon.corners)
+        out.push_back({corner, n, section, crushes_a});
+}
+
 void make_polygon_contacts(const PairView& view, const ContactRule& rule,
                            std::span<const MetCorner> corners, Contact* out) {
     const Mat3& rotation = view.scene.bodies.rotation[view.pair.a];
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
-    const bool rigid = meets_in_polygon(view.scene, view.pair, rule);
-    for (const auto& [corner, normal] : corners) {
+    const bool solids = pair_rule_of(view.scene, view.pair, rule) != PairRule::spheres;
+    for (const auto& [corner, normal, section, crushes_a] : corners) {
         Contact& contact = *out++;
         contact.a = view.pair.a;
         contact.b = view.pair.b;
@@ -52,8 +87,9 @@ void make_polygon_contacts(const PairView& view, const ContactRule& rule,
         contact.patch = Patch{};
         contact.patch.depth = -corner.gap;
         contact.region = -1;
-        contact.crushes_a = false;
-        if (rigid) continue;
+        contact.crushes_a = crushes_a;
+        contact.section = section;
+        if (solids) continue;
         // Crushing and regions need spheres: those nearest to the corner lend share and patch.
         contact.sphere_a = nearest_sphere(view.shape_a, corner.point);
         contact.sphere_b = nearest_sphere(view.shape_b, view.to_b(corner.point));
@@ -69,8 +105,9 @@ void find_lost_polygon(const PairView& view, std::span<const Candidate> found, d
     ICE_ASSERT(is_convex_pair(view));
     polygon.corners.clear();
     // 0 as `enough`: the solids overlap, and of these all axes are measured
-    const SeparatingAxes axes = find_axes(view.shape_a.convex, view.shape_b.convex,
-                                          {view.rotation_ab, view.translation_ab}, 0.0);
+    const SolidPair solids{
+        view.shape_a.convex, view.shape_b.convex, {view.rotation_ab, view.translation_ab}};
+    const SeparatingAxes axes = find_axes(solids.a, solids.b, solids.pose, 0.0);
     double least = 0.0;
     // A polygon is needed only if no sphere's contact is as deep as the solids, less what was
     // crushed and the slack.
@@ -78,7 +115,7 @@ void find_lost_polygon(const PairView& view, std::span<const Candidate> found, d
     const double crushed =
         view.scene.crushed.deepest_of(view.pair.a) + view.scene.crushed.deepest_of(view.pair.b);
     if (axes.widest() + crushed + lost_slack(view) < least)
-        find_polygon(view, axes, most, work, polygon);
+        find_polygon(solids, axes, most, work, polygon);
 }
 
 }  // namespace ice

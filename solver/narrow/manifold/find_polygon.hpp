@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Contacts from the polygon of two convex solids: for floes that cannot be crushed the only
-/// contacts; for pairs so deep that their spheres have passed each other, additional ones.
+/// Contacts from the polygon of two convex solids: of two floes the only contacts; of a floe so
+/// deep in the hull that their spheres have passed each other, additional ones.
 #pragma once
 
 #include <span>
@@ -8,24 +8,31 @@
 #include "solver/narrow/feature/contact_polygon.hpp"
 #include "solver/narrow/feature/pair_view.hpp"
 #include "solver/narrow/feature/part_polygons.hpp"
+#include "solver/narrow/feature/section_area.hpp"
+#include "solver/narrow/feature/solid_pair.hpp"
 #include "solver/narrow/manifold/contact.hpp"
 #include "solver/narrow/manifold/contact_rule.hpp"
 
 namespace ice {
 
-/// Are the contacts of this pair the corners of the polygons in which the two solids meet? Floes
-/// that are convex and cannot be crushed, and pieces of level ice, which are crushed only by the
-/// ship and at held ice: then no contact needs a sphere's share of the surface.
-bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule);
+/// How the contacts of a pair are found.
+PairRule pair_rule_of(const Scene& scene, BodyPair pair, const ContactRule& rule);
 
-/// Finds their contacts within `most` [m], at most four; no corners where every gap is wider.
-/// @pre both convex @param axes  of the two solids, all kinds
+/// Finds the corners within `most` [m], at most four; none where every gap is wider.
+/// @param axes  of the two solids, all kinds
 /// @param polygon  its old content is dropped, its memory kept
-void find_polygon(const PairView& view, const SeparatingAxes& axes, double most, ClippingWork& work,
-                  ContactPolygon& polygon);
+void find_polygon(const SolidPair& solids, const SeparatingAxes& axes, double most,
+                  ClippingWork& work, ContactPolygon& polygon);
 
-/// Makes contacts of corners, in their order. Between floes that cannot be crushed they have no
-/// spheres and no share; else those of the nearest spheres, b's ice being crushed.
+/// Appends the corners of a polygon that presses on ice that can be crushed. They share the section
+/// of the two solids (section_area) equally. The ice that is crushed is that of the more slender
+/// solid there (slice_area), b's of two equal ones: its corner or edge is cut off, and the other
+/// one's face stays.
+void append_pressed(const SolidPair& solids, const ContactPolygon& polygon, SectionWork& work,
+                    std::vector<MetCorner>& out);
+
+/// Makes contacts of corners, in their order. Those of solids have no spheres; the others have the
+/// spheres nearest to them, with their shares, b's ice being crushed.
 /// @param out  room for as many
 void make_polygon_contacts(const PairView& view, const ContactRule& rule,
                            std::span<const MetCorner> corners, Contact* out);

@@ -81,13 +81,14 @@ void PairCache::set_clearances(Row& row, BodyPair pair, const MotionBounds& moti
 
 double PairCache::separation_of_solids(Row& row, const PairView& view, double enough) {
     if (!is_convex_pair(view)) return separation(view, enough, row.axis);  // in several parts
-    const ConvexPiece &a = view.shape_a.convex, &b = view.shape_b.convex;
-    const RelativePose pose{view.rotation_ab, view.translation_ab};
+    const auto& [a, b, pose] = solids_of(view);
     // the plane that separated them last mostly still does: one plane instead of all
     const SeparatingAxes& last = row.axes;
-    if (last.plane_a >= 0 || last.plane_b >= 0) {
-        const bool of_a = last.plane_b < 0 || last.face_a >= last.face_b;
-        const double gap = gap_along_plane(a, b, pose, of_a ? last.plane_a : -1, last.plane_b);
+    const bool of_a = last.plane_b < 0 || last.face_a >= last.face_b;
+    const std::int32_t plane = of_a ? last.plane_a : last.plane_b;
+    // crushing numbers the planes of a solid anew: any of them may separate the solids
+    if (plane >= 0 && static_cast<std::size_t>(plane) < (of_a ? a : b).plane_count()) {
+        const double gap = gap_along_plane(a, b, pose, of_a ? plane : -1, plane);
         if (gap > enough) return gap;
     }
     row.axes = find_axes(a, b, pose, enough);
@@ -96,7 +97,7 @@ double PairCache::separation_of_solids(Row& row, const PairView& view, double en
 
 PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pair,
                                   const MotionBounds& motion, double dt, double margin,
-                                  bool polygon) {
+                                  PairRule how) {
     Row& row = lists_.row(k);
     // First without poses: the paths bound the motion since the last comparison.
     const double path = motion.path_after_step(pair.a) + motion.path_after_step(pair.b);
@@ -108,9 +109,10 @@ PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pa
     // Second the solids: where they are apart by more than the step can close, the pair is clear
     // until both paths have used up the rest. The separation shrinks by at most separation_share
     // times the path.
-    const double apart = (polygon ? separation_of_solids(row, view, closing + margin)
+    const double apart =
+        (how != PairRule::spheres ? separation_of_solids(row, view, closing + margin)
                                   : separation(view, closing + margin, row.axis)) -
-                         margin;
+        margin;
     if (apart > closing) {
         row.path_clearance =
             motion.path(pair.a) + motion.path(pair.b) + apart / separation_share(view);
@@ -118,7 +120,7 @@ PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pa
         return State::separated;
     }
     // Polygons have no list to become stale: they are measured anew in each step.
-    if (polygon) {
+    if (how != PairRule::spheres) {
         row.path_stale = row.rotation_stale = std::numeric_limits<double>::infinity();
         row.path_clearance = -row.path_stale;
         return State::polygon;

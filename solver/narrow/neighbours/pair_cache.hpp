@@ -10,6 +10,7 @@
 #include "solver/narrow/feature/feature_pair_bound.hpp"
 #include "solver/narrow/feature/pair_view.hpp"
 #include "solver/narrow/feature/separating_axis.hpp"
+#include "solver/narrow/feature/solid_pair.hpp"
 #include "solver/narrow/neighbours/appended_lists.hpp"
 #include "solver/scene/bodies.hpp"
 
@@ -39,10 +40,10 @@ public:
         stale       ///< the list is no longer valid
     };
     /// @param margin  [m] bodies that are further apart at the end of the step have no contact
-    /// @param polygon  the solids meet in a polygon (meets_in_polygon)
+    /// @param how  how the pair's contacts are found
     /// @pre motion was updated with the present poses and dt
     State state(std::size_t k, const Scene& scene, BodyPair pair, const MotionBounds& motion,
-                double dt, double margin, bool polygon);
+                double dt, double margin, PairRule how);
 
     /// The separating axes of row k's solids. @pre state() returned State::polygon, both are convex
     const SeparatingAxes& axes(std::size_t k) const { return lists_.row(k).axes; }
