@@ -37,11 +37,14 @@ bool ship_can_move(const ShipResponse& ship, const Vec3& arm, const Vec3& normal
     return ship_response(ship, arm, normal) > kLeastResponse * most;
 }
 
-// Largest normal impulse [N s], (13): crushing pressure on the section cut half way through the
-// step. At the start of the step instead, the bound would lag behind by half a step.
+// Largest normal impulse [N s], (13): crushing pressure on the section. Of spheres it is that cut
+// half way through the step: at the start of the step, the bound would lag behind by half a step.
 double max_impulse(const Contact& contact, double approach, const ContactLaw& law, double dt) {
-    if (law.is_rigid()) return std::numeric_limits<double>::infinity();
-    if (contact.is_of_solids()) return law.crushing_pressure * contact.section * dt;
+    // the section of solids is that at the step's beginning
+    const bool solids = contact.is_of_solids();
+    if (law.is_rigid() || (solids && std::isinf(contact.section)))
+        return std::numeric_limits<double>::infinity();
+    if (solids) return law.crushing_pressure * contact.section * dt;
     // half a step of closing speed: the section of (13) at mid-step; opening does not reduce it
     const double depth = contact.patch.depth - 0.5 * dt * std::min(approach, 0.0);
     return law.crushing_pressure * cut_area(contact.patch, depth) * dt;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/contact/crush_solids.hpp"
 
+#include <algorithm>
+
 #include "common/base/assert.hpp"
 #include "solver/contact/overlaps.hpp"
 
@@ -15,11 +17,18 @@ void CrushSolids::add(const Cut& cut) {
     cuts_.push_back(cut);
 }
 
+void CrushSolids::list_uncut(const std::vector<Constraint>& constraints, const Cut& cut) {
+    const auto [a, b] = std::minmax(cut.body, cut.other);
+    for (std::size_t k = 0; k < constraints.size(); ++k)
+        if (constraints[k].a == a && constraints[k].b == b) uncut_.push_back(k);
+}
+
 void CrushSolids::cut(Scene& scene, const std::vector<Contact>& contacts,
                       const std::vector<Constraint>& constraints, const ContactLaw& law,
                       double dt) {
     ICE_ASSERT(constraints.size() == contacts.size());
     cuts_.clear();
+    uncut_.clear();
     if (law.is_rigid()) return;
     const Bodies& bodies = scene.bodies;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
@@ -29,7 +38,7 @@ void CrushSolids::cut(Scene& scene, const std::vector<Contact>& contacts,
         // The gap at the end of the step. Overlap that position correction tolerates need not be
         // cut off, and a solid keeps its planes for some steps.
         const double gap = c.gap + dt * relative_velocity(bodies, c).dot(c.normal);
-        if (gap >= -kToleratedOverlap * radius_of(scene, c)) continue;
+        if (gap >= -kToleratedOverlap * smaller_radius(scene, c)) continue;
         // From the middle between the surfaces to the other body's, which moves against the ice
         // that stays, by gap - c.gap along the normal as the crushed body sees it.
         const double to_face = 0.5 * c.gap - (c.gap - gap);
@@ -42,7 +51,10 @@ void CrushSolids::cut(Scene& scene, const std::vector<Contact>& contacts,
         add({body, of_a ? c.b : c.a, normal, point, normal.dot(point)});
     }
     for (const Cut& cut : cuts_)
-        scene.crushed_solids.cut(cut.body, scene.shape_of(cut.body).convex, cut.outward, cut.point);
+        if (!scene.crushed_solids.cut(cut.body, scene.shape_of(cut.body).convex, cut.outward,
+                                      cut.point))
+            list_uncut(constraints, cut);
+    std::sort(uncut_.begin(), uncut_.end());
 }
 
 }  // namespace ice

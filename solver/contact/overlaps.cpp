@@ -41,7 +41,7 @@ bool is_of_ship(const Bodies& bodies, const Constraint& c) {
 
 }  // namespace
 
-double radius_of(const Scene& scene, const Constraint& c) {
+double smaller_radius(const Scene& scene, const Constraint& c) {
     const auto of = [&](std::int32_t body) {
         return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])].largest_radius;
     };
@@ -72,7 +72,8 @@ Overlaps::Push Overlaps::push_of(const Bodies& bodies, const Constraint& c, std:
 }
 
 void Overlaps::correct_positions(const Scene& scene, const std::vector<Constraint>& constraints,
-                                 double dt, PositionCorrections& out) {
+                                 const std::vector<std::size_t>& uncut, double dt,
+                                 PositionCorrections& out) {
     const Bodies& bodies = scene.bodies;
     const double share = std::min(dt / kOpeningTime, kMostInStep);
     out.shift.resize(bodies.size(), Vec3::Zero());
@@ -88,10 +89,11 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
     pushes_.clear();
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
-        const double radius = radius_of(scene, c);
+        const double radius = smaller_radius(scene, c);
         const double overlap = -gap_after(bodies, c, dt) - kToleratedOverlap * radius;
         // a ship on a prescribed course and held ice keep theirs
-        if (overlap <= 0.0 || c.is_at_bound() || !c.can_move) continue;
+        const bool crushed = c.is_at_bound() && !std::binary_search(uncut.begin(), uncut.end(), k);
+        if (overlap <= 0.0 || crushed || !c.can_move) continue;
         pushes_.push_back(push_of(bodies, c, k, share * std::min(overlap, kMostOpened * radius)));
     }
     // Gauss-Seidel on the moves: n . (d_b - d_a) >= target with a push that never pulls

@@ -17,8 +17,8 @@ namespace ice {
 /// floes that only touch.
 constexpr double kToleratedOverlap = 0.02;
 
-/// The smaller one of the bodies' spheres [m]: lengths of a contact count in it.
-double radius_of(const Scene& scene, const Constraint& c);
+/// The radius of the smaller one of the bodies' spheres [m], in which overlaps are measured.
+double smaller_radius(const Scene& scene, const Constraint& c);
 
 /// Small moves that shrink overlaps; they change poses, never velocities or reported forces.
 struct PositionCorrections {
@@ -44,14 +44,16 @@ public:
     /// deep pair thus opens at five radii R a second; with longer ones a tenth of a radius in each
     /// step, which is slower.
     ///
-    /// Contacts at their bound are left out: that ice is crushed. A free ship moves by its
+    /// Contacts at their bound are left out, because that ice is crushed, but for those in `uncut`
+    /// (CrushSolids::uncut). A free ship moves by its
     /// share, of its mass and the water's that moves along; one on a prescribed course does not
     /// move.
     /// @param dt   time step [s]
     /// @param out  resized to all bodies; zero for bodies without overlap. It is that of the last
     ///             step, or empty: only the ship and moving bodies are cleared
     void correct_positions(const Scene& scene, const std::vector<Constraint>& constraints,
-                           double dt, PositionCorrections& out);
+                           const std::vector<std::size_t>& uncut, double dt,
+                           PositionCorrections& out);
 
     /// Spheres of ice at their bound are crushed: the overlap that the step leaves at such a
     /// contact is taken off the ice for good. A second contact that presses on a sphere extends

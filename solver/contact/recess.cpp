@@ -20,10 +20,7 @@ constexpr double kNeighbours = 2.0;
 // By how much a contact may have become deeper within the last step [m]: bodies came to their poses
 // with the velocities that they have.
 double most_closed(const Scene& scene, const Constraint& c, double dt) {
-    const auto radius = [&](std::int32_t body) {
-        return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])].largest_radius;
-    };
-    return dt * std::max(0.0, -c.approach) + kToleratedOverlap * std::min(radius(c.a), radius(c.b));
+    return dt * std::max(0.0, -c.approach) + kToleratedOverlap * smaller_radius(scene, c);
 }
 
 // From the other body into the ice of the contact's sphere, world axes.
@@ -85,7 +82,7 @@ void Recess::find_moves(const Scene& scene, double dt, const std::vector<Contact
         // (13a): the increase of depth since the last step, less the part that the motion
         // explains, at most down to the deepest neighbour. Whole ice has no recess.
         const Contact& c = contacts[k];
-        if (c.is_of_solids()) continue;  // cut right away, and as a whole
+        if (c.is_of_solids()) continue;  // a cut takes a face as a whole: no recess
         const Place place = place_of(c);
         const double deeper = -c.gap - last_depth(c, at);
         if (deeper <= 0.0 || scene.crushed.is_whole(place.body) || !has_past(c)) continue;

@@ -127,8 +127,8 @@ struct Scene {
     int dimension = 3;          ///< 2: motion along x and z and about y alone
     std::vector<Shape> shapes;  ///< by row; row 0: hull
     Bodies bodies;
-    CrushedIce crushed;                 ///< by the ship
-    CrushedSolids crushed_solids;       ///< by other floes
+    CrushedIce crushed;                 ///< at contacts of spheres
+    CrushedSolids crushed_solids;       ///< at contacts of two convex floes
     WaterFlow water;                    ///< at rest unless the case says otherwise
     Vec3 ship_velocity = Vec3::Zero();  ///< [m/s]
     IceAtStart start;                   ///< set by build_scene()

@@ -17,13 +17,14 @@ class CheckpointFile;
 /// ship, which have their own crushed depths (CrushedIce).
 class CrushedSolids {
 public:
-    /// What is left of a body's solid if it was ever cut; else null.
+    /// The solid of a body that was cut; null for a whole body.
     const ConvexPiece* solid_of(std::int32_t body) const {
         const auto i = static_cast<std::size_t>(body);
         return i < solids_.size() && !solids_[i].empty() ? &solids_[i] : nullptr;
     }
     /// Cuts a body's solid (crush_solid); body axes. @param whole  its solid before any cut
-    void cut(std::int32_t body, const ConvexPiece& whole, const Vec3& outward, const Vec3& point);
+    /// @return false where the solid could not be cut
+    bool cut(std::int32_t body, const ConvexPiece& whole, const Vec3& outward, const Vec3& point);
     /// The body has another shape now, and it is whole.
     void forget(std::int32_t body);
 

@@ -113,9 +113,10 @@ void step(World& w) {
     // 8 overlap that the finite step left is taken out of the poses, not of the velocities; where
     // the ice crushes, out of the ice
     timed(w, Stage::contact, [&] {
-        w.overlaps.correct_positions(w.scene, w.constraints, dt, w.corrections);
-        w.overlaps.crush(w.scene, w.contacts, w.constraints, law, dt);
         w.crush_solids.cut(w.scene, w.contacts, w.constraints, law, dt);
+        w.overlaps.correct_positions(w.scene, w.constraints, w.crush_solids.uncut(), dt,
+                                     w.corrections);
+        w.overlaps.crush(w.scene, w.contacts, w.constraints, law, dt);
     });
     timed(w, Stage::integrate, [&] {  // 9 move
         enter_step(w.scene, w.parameters, w.constraints, w.loads, w.corrections, w.start, w.ledger);

@@ -5,6 +5,8 @@
 // Tolerances: 1e-12 and 1e-9 are rounding of volumes and areas of solids of a metre.
 #include "solver/scene/crushed_solids.hpp"
 
+#include <unistd.h>
+
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -89,7 +91,7 @@ void push_down(World& w, double speed) {
 
 }  // namespace
 
-TEST_CASE("a cut box has the corners, faces and volume of the box less what is beyond the plane",
+TEST_CASE("a plane cuts a box into the solid that geometry gives",
           "[shape][analytic]") {
     const ConvexPiece whole = solid_box(Vec3(2, 1, 0.6));
     const ConvexPiece shorter = cut_piece(whole, {Vec3::UnitX(), 0.3});
@@ -306,6 +308,41 @@ TEST_CASE("an edge that is driven into a floe meets pressure x section at every 
     CHECK(measure_overlaps(w.scene, {}).deepest < speed * 0.01);
 }
 
+TEST_CASE("a tilted face meets pressure x section, whatever corners are still open",
+          "[step][crushing][analytic]") {
+    // tilted about y: two corners are in the lower floe, two above it
+    const double tilt = 0.02, depth = 0.004;
+    World w = floe_on_floe(1e3, Vec3(0, 0, 0.15 - depth + 0.5 * std::sin(tilt)),
+                           Quaternion(Eigen::AngleAxisd(tilt, Vec3::UnitY())));
+    push_down(w, 2.0);  // the open corners are within the step's reach
+    step(w);
+    double bound = 0.0, force = 0.0;
+    std::size_t open = 0;
+    for (const Constraint& c : w.constraints) {
+        open += c.gap > 1e-3;
+        if (c.gap <= 1e-3) bound += c.max_impulse / 0.01;
+        force += c.total_normal() / 0.01;
+    }
+    CHECK(open == 2);
+    // the half edge of the face's lower end: its thickness is taken for upright
+    const double lowest =
+        -(0.5 * std::sin(tilt) + 0.15 * std::cos(tilt)) + 0.15 - depth + 0.5 * std::sin(tilt);
+    const double area = 0.8 * (1e-3 - lowest) / std::tan(tilt);
+    CHECK(bound == Near(1e3 * area).epsilon(0.02));
+    CHECK(force >= bound * (1.0 - 1e-9));
+}
+
+TEST_CASE("an overlap that cannot be cut opens", "[step][crushing]") {
+    // the whole floe lies below the lower one's upper face: a cut would leave nothing of it
+    World w = floe_on_floe(1.0, Vec3(0, 0, -0.2), Quaternion::Identity());
+    const double begin = w.scene.bodies.position[2].z();
+    push_down(w, 1e-3);
+    for (int k = 0; k < 10; ++k) step(w);
+    CHECK(w.scene.crushed_solids.solid_of(2) == nullptr);
+    // half a radius in a fifth of which a step of 0.01 s opens a tenth, the floe's way down apart
+    CHECK(w.scene.bodies.position[2].z() - begin == Near(10 * 0.1 * 0.5 * 0.05).margin(2e-4));
+}
+
 TEST_CASE("what a floe has crushed off counts neither as ice nor as overlap", "[overlaps]") {
     World w = floe_on_floe(1e5, Vec3(0, 0, 0.1), Quaternion::Identity());
     CHECK(measure_overlaps(w.scene, {}).deepest == Near(0.05).margin(1e-9));
@@ -327,7 +364,8 @@ TEST_CASE("crushed solids come back from a checkpoint to the bit", "[checkpoint]
         const Vec3 n = dice.vector().normalized();
         crushed.cut(k % 2 == 0 ? 2 : 5, whole, n, 0.3 * n);
     }
-    const auto path = std::filesystem::temp_directory_path() / "crushed-solids-test.h5";
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("crushed-solids-" + std::to_string(::getpid()) + ".h5");
     {
         CheckpointFile file(path, CheckpointFile::Direction::write);
         crushed.carry(file);

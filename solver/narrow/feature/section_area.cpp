@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "common/geometry/plane_crossing.hpp"
 #include "common/math/ordered_products.hpp"

@@ -13,10 +13,11 @@ struct SectionWork {
     std::vector<Vec3> face, rest;
 };
 
-/// The section on which two overlapping solids press [m2]: the vector area of b's surface inside a,
-/// along the normal. By the divergence theorem that of a's surface inside b is the same: of a
-/// corner in a face it is the section of the corner, of two crossing edges half the product of
-/// their lengths in each other and of the sine between them.
+/// The section on which two overlapping solids press [m2]: the part of b's surface that faces a and
+/// lies inside a, projected on the normal. Two solids that overlap less than they are thick have
+/// the same section from either side, by the divergence theorem. Of a corner in a face it is the
+/// corner's section. Of two crossing edges it is half the product of their lengths inside the other
+/// solid and of the sine between them.
 /// @param n      unit, from a to b, a's axes
 /// @param reach  [m] b's surface counts up to this far outside a's planes, so that faces that just
 ///               touch count whole

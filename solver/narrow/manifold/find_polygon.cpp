@@ -18,11 +18,32 @@ namespace {
 constexpr double kReach = 1e-3;
 
 // How far behind the surfaces that meet the solids are sliced, to tell which is more slender [-],
-// in sizes of the smaller one. Larger slices may lie behind thin ice, smaller ones see rounding.
-constexpr double kSliceDepth = 0.02;
+// in radii of the smaller one. A larger depth may pass right through thin ice, a smaller one
+// compares areas of the size of rounding.
+constexpr double kSliceDepth = 0.04;
 
 // Slices this near to each other [-] are equal: rounding of areas shall not decide.
 constexpr double kSameArea = 1e-6;
+
+// Distance of the farthest corner from the centre of mass [m].
+double radius_of(const ConvexPiece& piece) {
+    double most = 0.0;
+    for (std::size_t k = 0; k < piece.corners.size(); ++k)
+        most = std::max(most, piece.corners[k].norm());
+    return most;
+}
+
+// The section of two solids on each corner of their polygon [m2]. Corners that are open by more
+// than the reach carry nothing yet, and take no share from the others.
+double section_of_corner(const SolidPair& solids, const ContactPolygon& polygon, double gap,
+                         SectionWork& work) {
+    const double reach = std::max(gap, 0.0) + kReach;
+    const auto pressed =
+        std::count_if(polygon.corners.begin(), polygon.corners.end(),
+                      [&](const PolygonCorner& corner) { return corner.gap <= reach; });
+    return section_area(solids.a, solids.b, solids.pose, polygon.normal, reach, work) /
+           static_cast<double>(pressed);
+}
 
 }  // namespace
 
@@ -31,7 +52,9 @@ PairRule pair_rule_of(const Scene& scene, BodyPair pair, const ContactRule& rule
     if (rule.normal != NormalRule::surface || pair.a == static_cast<std::int32_t>(kShip))
         return PairRule::spheres;
     const Shape &a = scene.shape_of(pair.a), &b = scene.shape_of(pair.b);
-    if (rule.crushes && !a.parts.empty() && !b.parts.empty()) return PairRule::parts;
+    // level ice of which one body has no parts meets by spheres: solids would cut the other one
+    if (rule.crushes && (!a.parts.empty() || !b.parts.empty()))
+        return a.parts.empty() || b.parts.empty() ? PairRule::spheres : PairRule::parts;
     return a.convex.empty() || b.convex.empty() ? PairRule::spheres : PairRule::solids;
 }
 
@@ -53,13 +76,10 @@ void append_pressed(const SolidPair& solids, const ContactPolygon& polygon, Sect
     const PolygonCorner& deepest =
         *std::min_element(polygon.corners.begin(), polygon.corners.end(),
                           [](const auto& l, const auto& r) { return l.gap < r.gap; });
-    const double section = section_area(a, b, pose, n, std::max(deepest.gap, 0.0) + kReach, work) /
-                           static_cast<double>(polygon.corners.size());
-    const auto size = [](const ConvexPiece& piece) {
-        return (piece.corners[0] - piece.corners[piece.corners.size() - 1]).norm();
-    };
+    const double section = section_of_corner(solids, polygon, deepest.gap, work);
     const double at = n.dot(deepest.point),
-                 behind = kSliceDepth * std::min(size(a), size(b)) + 0.5 * std::abs(deepest.gap);
+                 behind = kSliceDepth * std::min(radius_of(a), radius_of(b)) +
+                          0.5 * std::abs(deepest.gap);
     const double of_a = slice_area(a, n, at - behind),
                  of_b = slice_area(b, pose.rotation.transpose() * n,
                                    at + behind - n.dot(pose.translation));

@@ -24,10 +24,11 @@ PairRule pair_rule_of(const Scene& scene, BodyPair pair, const ContactRule& rule
 void find_polygon(const SolidPair& solids, const SeparatingAxes& axes, double most,
                   ClippingWork& work, ContactPolygon& polygon);
 
-/// Appends the corners of a polygon that presses on ice that can be crushed. They share the section
-/// of the two solids (section_area) equally. The ice that is crushed is that of the more slender
-/// solid there (slice_area), b's of two equal ones: its corner or edge is cut off, and the other
-/// one's face stays.
+/// Appends the corners of a polygon that presses on ice that can be crushed. Corners that touch
+/// share the section of the two solids (section_area) equally; corners that are open have a share
+/// of the same size, for the case that they close within the step. Crushing cuts the solid that is
+/// more slender there (slice_area), and b's of two equal ones. It loses its corner or edge; the
+/// other solid keeps its face.
 void append_pressed(const SolidPair& solids, const ContactPolygon& polygon, SectionWork& work,
                     std::vector<MetCorner>& out);
 

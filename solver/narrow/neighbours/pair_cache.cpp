@@ -86,9 +86,10 @@ double PairCache::separation_of_solids(Row& row, const PairView& view, double en
     const SeparatingAxes& last = row.axes;
     const bool of_a = last.plane_b < 0 || last.face_a >= last.face_b;
     const std::int32_t plane = of_a ? last.plane_a : last.plane_b;
-    // crushing numbers the planes of a solid anew: any of them may separate the solids
+    // Crushing may have numbered the planes anew. That does no harm: a gap along any plane proves
+    // that the solids are apart.
     if (plane >= 0 && static_cast<std::size_t>(plane) < (of_a ? a : b).plane_count()) {
-        const double gap = gap_along_plane(a, b, pose, of_a ? plane : -1, plane);
+        const double gap = gap_along_plane(a, b, pose, of_a ? plane : -1, of_a ? -1 : plane);
         if (gap > enough) return gap;
     }
     row.axes = find_axes(a, b, pose, enough);
