@@ -91,8 +91,7 @@ void push_down(World& w, double speed) {
 
 }  // namespace
 
-TEST_CASE("a plane cuts a box into the solid that geometry gives",
-          "[shape][analytic]") {
+TEST_CASE("a plane cuts a box into the solid that geometry gives", "[shape][analytic]") {
     const ConvexPiece whole = solid_box(Vec3(2, 1, 0.6));
     const ConvexPiece shorter = cut_piece(whole, {Vec3::UnitX(), 0.3});
     require_solid(shorter);
