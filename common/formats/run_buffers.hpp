@@ -16,10 +16,12 @@ namespace run_parts {
 // kills of a run that flushes ten times a second). Hence only whole chunks are written while the
 // run continues.
 //
-// Larger chunks compress better and lose more rows to a kill; smaller ones make the file larger.
+// Larger chunks compress better and lose more rows to a kill; smaller ones make the file larger, and
+// HDF5's index of them in memory: an hour of level ice had 27 500 chunks of 64 contacts, whose index
+// took 7 MB.
 constexpr std::uint64_t kMostFrames = 20;
 constexpr std::uint64_t kHistoryChunk = 64;
-constexpr std::uint64_t kContactChunk = 64;
+constexpr std::uint64_t kContactChunk = 1024;
 
 // Frames per chunk of a run with so many floes: of a million floes 20 frames would take 1.4 GB.
 inline std::uint64_t frames_per_chunk(std::uint64_t floes) {
