@@ -70,15 +70,21 @@ public:
             }
     }
 
+    // A floe may lie below these cells.
+    void mark(const Box& floe) {
+        near_floe_.resize(parts_.size(), 0);
+        for_cells(floe, [&](std::size_t cell) { near_floe_[cell] = 1; });
+    }
+
     // Those of the cells that the box touches which may be met.
     std::vector<Loop> met() {
         std::vector<Loop> out;
         // the outer row of cells serves to judge the others only
         for (std::int64_t i = 1; i + 1 < count_[0]; ++i)
             for (std::int64_t j = 1; j + 1 < count_[1]; ++j) {
-                // whole, with whole neighbours: no body reaches it before a crack or the hull
-                // has opened them
-                if (is_inside(i, j)) continue;
+                // whole, with whole neighbours: only a floe below it reaches it before a crack or
+                // the hull has opened them
+                if (is_inside(i, j) && (near_floe_.empty() || !near_floe_[row(i, j)])) continue;
                 for (Loop& part : parts(i, j)) out.push_back(std::move(part));
             }
         return out;
@@ -103,18 +109,23 @@ private:
         for (const Loop& loop : sheet.loops())
             for (std::size_t k = 0; k < loop.size(); ++k) {
                 const Vec2 &p = loop[k], &q = loop[(k + 1) % loop.size()];
-                std::array<std::int64_t, 2> low, high;
-                for (int d = 0; d < 2; ++d) {
-                    const double beside = kNearCell * grid_.cell;
-                    low[d] = index_of(std::min(p[d], q[d]) - beside, d) - first_[d];
-                    high[d] = index_of(std::max(p[d], q[d]) + beside, d) - first_[d];
-                    low[d] = std::max(low[d], std::int64_t{0});
-                    high[d] = std::min(high[d], count_[d] - 1);
-                }
-                for (std::int64_t i = low[0]; i <= high[0]; ++i)
-                    for (std::int64_t j = low[1]; j <= high[1]; ++j) out[row(i, j)] = 1;
+                const Vec2 beside = Vec2::Constant(kNearCell * grid_.cell);
+                for_cells({Vec2(p.cwiseMin(q) - beside), Vec2(p.cwiseMax(q) + beside)},
+                          [&](std::size_t cell) { out[cell] = 1; });
             }
         return out;
+    }
+
+    // Calls visit(row) for the cells that the box touches.
+    template <class Visit>
+    void for_cells(const Box& box, const Visit& visit) const {
+        std::array<std::int64_t, 2> low, high;
+        for (int d = 0; d < 2; ++d) {
+            low[d] = std::max(index_of(box.min()[d], d) - first_[d], std::int64_t{0});
+            high[d] = std::min(index_of(box.max()[d], d) - first_[d], count_[d] - 1);
+        }
+        for (std::int64_t i = low[0]; i <= high[0]; ++i)
+            for (std::int64_t j = low[1]; j <= high[1]; ++j) visit(row(i, j));
     }
 
     static std::int64_t band_of(std::int64_t column) {
@@ -179,14 +190,17 @@ private:
     std::array<std::int64_t, 2> first_, count_;
     std::vector<std::vector<Loop>> parts_;  // by cell
     std::vector<std::uint8_t> whole_;
+    std::vector<std::uint8_t> near_floe_;  // empty where there are no floes
 };
 
 }  // namespace
 
 std::vector<Loop> edge_tiles(const IceSheet& sheet, const EdgeGrid& grid, const Box& reach,
+                             const std::vector<Box>& floes,
                              const std::function<bool(const Loop&)>& can_be_filled) {
     Cells cells(sheet, grid, reach);
     cells.join_slivers(can_be_filled);
+    for (const Box& floe : floes) cells.mark(floe);
     return cells.met();
 }
 

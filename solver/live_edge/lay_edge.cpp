@@ -33,6 +33,21 @@ bool LiveEdge::Precedes::operator()(const Loop& l, const Loop& r) const {
         });
 }
 
+// Boxes around floes that may move, where they come until tiles are laid again: that is when the
+// ship has come a cell farther, and it pushes no floe farther than that.
+std::vector<Box> LiveEdge::floes_in_ice(const Scene& scene) const {
+    const Bodies& b = scene.bodies;
+    std::vector<Box> out;
+    for (std::size_t i = kShip + 1; i < b.size(); ++i) {
+        if (b.inverse_mass[i] == 0.0) continue;
+        const Eigen::AlignedBox3d& box = scene.shape_of(static_cast<std::int32_t>(i)).box;
+        const double far = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm() + radius_;
+        const Vec2 at = b.position[i].head<2>() - drifted_;
+        out.emplace_back(Vec2(at.array() - far), Vec2(at.array() + far));
+    }
+    return out;
+}
+
 // Tiles that stay as they are keep their bodies and crushed depths.
 void LiveEdge::lay_tiles(const Scene& scene, Plan& plan) {
     auto last = std::exchange(cell_bodies_, {});
@@ -43,10 +58,10 @@ void LiveEdge::lay_tiles(const Scene& scene, Plan& plan) {
         return kept.empty() ? cell_bodies_.emplace(part, bodies_of(part)).first->second
                             : cell_bodies_.insert(std::move(kept)).position->second;
     };
-    const auto tiles = is_strip_
-                           ? strip_tiles(sheet_, extent_.min().x(), radius_)
-                           : edge_tiles(sheet_, {extent_.min(), radius_}, reach(scene),
-                                        [&](const Loop& part) { return !bodies(part).empty(); });
+    const auto tiles =
+        is_strip_ ? strip_tiles(sheet_, extent_.min().x(), radius_)
+                  : edge_tiles(sheet_, {extent_.min(), radius_}, reach(scene), floes_in_ice(scene),
+                               [&](const Loop& part) { return !bodies(part).empty(); });
     std::vector<Loop> wanted;
     for (const Loop& tile : tiles)
         // a tile whose outline is unchanged stays with its body, its notches and its contacts

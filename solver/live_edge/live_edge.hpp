@@ -152,6 +152,7 @@ private:
     Vec2 ship_in_ice(const Scene& scene) const;
     std::vector<Loop> hull_in_ice(const Scene& scene) const;
     Eigen::AlignedBox2d reach(const Scene& scene) const;
+    std::vector<Eigen::AlignedBox2d> floes_in_ice(const Scene& scene) const;
     bool crush_through(const std::vector<Loop>& hull);
     void break_off(const Crack& crack, const std::vector<Loop>& hull, Plan& plan);
     void add_piece(const Loop& piece, const Crack& crack, const std::vector<Loop>& hull,

@@ -39,7 +39,8 @@ TEST_CASE("tiles of a straight edge are its cells and those behind",
     const IceSheet sheet(Box(Vec2(0, -10), Vec2(30, 10)), 0.5);
     const auto any = [](const Loop&) { return true; };
     // x of -4 to 2: the cells at the edge; those behind have whole ones all around from x = 2 on
-    const auto tiles = edge_tiles(sheet, {Vec2(0, -10), 2.0}, Box(Vec2(-3, -3), Vec2(9, 3)), any);
+    const auto tiles =
+        edge_tiles(sheet, {Vec2(0, -10), 2.0}, Box(Vec2(-3, -3), Vec2(9, 3)), {}, any);
     double area = 0.0;
     for (const Loop& tile : tiles) {
         area += area_of(tile);
@@ -49,12 +50,30 @@ TEST_CASE("tiles of a straight edge are its cells and those behind",
     CHECK(area == Near(16.0));
 }
 
+TEST_CASE("unbroken ice above a floe has tiles, too", "[live_edge][level_ice][edge]") {
+    const IceSheet sheet(Box(Vec2(0, -10), Vec2(30, 10)), 0.5);
+    const auto any = [](const Loop&) { return true; };
+    // the cells of 2 m from (8, -6) to (12, -2), beside those at the edge; one floe outside of reach
+    const std::vector<Box> floes{{Vec2(8.5, -5.5), Vec2(11.5, -2.5)}, {Vec2(90, 0), Vec2(95, 5)}};
+    const auto tiles =
+        edge_tiles(sheet, {Vec2(0, -10), 2.0}, Box(Vec2(-3, -7), Vec2(15, 3)), floes, any);
+    double area = 0.0;
+    std::size_t at_edge = 0;
+    for (const Loop& tile : tiles) {
+        at_edge += tile[0].x() == 0.0;
+        if (tile[0].x() > 0.0) area += area_of(tile);
+        CHECK((tile[0].x() == 0.0 || (tile[0].x() >= 8.0 && tile[0].x() <= 10.0)));
+    }
+    CHECK(at_edge == 6);
+    CHECK(area == Near(16.0));
+}
+
 TEST_CASE("a strip that the grid cuts off goes to the cell beside it",
           "[live_edge][level_ice][edge]") {
     const IceSheet sheet(Box(Vec2(-0.1, -10), Vec2(30, 10)), 0.05);
     const auto broad = [](const Loop& l) { return area_of(l) > 0.5; };
     const Box reach(Vec2(-3, -2.9), Vec2(1, 2.9));
-    const auto tiles = edge_tiles(sheet, {Vec2(0, -10), 2.0}, reach, broad);
+    const auto tiles = edge_tiles(sheet, {Vec2(0, -10), 2.0}, reach, {}, broad);
     double area = 0.0;
     for (const Loop& tile : tiles) {
         area += area_of(tile);
