@@ -17,7 +17,7 @@ inline void require_memory() {
     // [bytes] six MiB: the library's caches of chunks and metadata for a few datasets. Less lets
     // HDF5 crash where memory is nearly out; more refuses small machines.
     constexpr std::size_t kEnough = 6 << 20;
-    // Not from the heap: its rest would be cut up by smaller blocks, and each call would enlarge it.
+    // Not from the heap: smaller blocks would cut up its rest, and each call would enlarge it.
     void* const block =
         mmap(nullptr, kEnough, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (block == MAP_FAILED) throw std::bad_alloc();

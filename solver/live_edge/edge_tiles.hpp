@@ -14,9 +14,9 @@ struct EdgeGrid {
     double cell;  ///< side [m], > 0
 };
 
-/// The ice within `reach` whose edge can be met, cell by cell: of every cell that is not whole, or
-/// beside one that is not, or touched by the box of a floe, the parts of the sheet in it: a floe may
-/// slide below the unbroken ice. Nothing of two tiles is in common.
+/// The ice within `reach` that can be met, cell by cell: of every cell that is not whole, or beside
+/// one that is not, or touched by the box of a floe, the parts of the sheet in it. A floe may slide
+/// below the unbroken ice. Nothing of two tiles is in common.
 ///
 /// A part for which `can_be_filled` is false, as a strip that the grid cuts off, joins the part of
 /// a cell beside it (at smaller x, larger x, smaller y, larger y, the first with which it has an

@@ -26,7 +26,7 @@ std::size_t press_at_random(int loads) {
     for (int done = 0; done < loads;) {
         World w = make_world(p);
         std::size_t seen = 0;
-        for (; done < loads && w.edge.pieces().size() < 100; ++done) {
+        for (; done < loads && w.edge.pieces().size() < 80; ++done) {
             const auto tiles = tiles_of(w.edge, w.scene.bodies);
             CAPTURE(done, w.edge.sheet().area(), w.edge.pieces().size());
             REQUIRE_FALSE(tiles.empty());

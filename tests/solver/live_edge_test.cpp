@@ -53,7 +53,7 @@ TEST_CASE("tiles of a straight edge are its cells and those behind",
 TEST_CASE("unbroken ice above a floe has tiles, too", "[live_edge][level_ice][edge]") {
     const IceSheet sheet(Box(Vec2(0, -10), Vec2(30, 10)), 0.5);
     const auto any = [](const Loop&) { return true; };
-    // the cells of 2 m from (8, -6) to (12, -2), beside those at the edge; one floe outside of reach
+    // the cells of 2 m from (8, -6) to (12, -2), beside those at the edge; one floe out of reach
     const std::vector<Box> floes{{Vec2(8.5, -5.5), Vec2(11.5, -2.5)}, {Vec2(90, 0), Vec2(95, 5)}};
     const auto tiles =
         edge_tiles(sheet, {Vec2(0, -10), 2.0}, Box(Vec2(-3, -7), Vec2(15, 3)), floes, any);
