@@ -149,7 +149,11 @@ TEST_CASE("meshes, regions and spheres of the shapes come back to float precisio
 TEST_CASE("a run of 45 frames so far, alive or killed, can be read up to the flush at frame 40",
           "[formats]") {
     const TempFolder folder;
-    const RunData run = make_run();
+    RunData run = make_run();
+    // so many contacts that some of their chunks, of 1024 rows, are whole by frame 40
+    for (RunFrame& frame : run.frames)
+        while (!frame.hull_contacts.empty() && frame.hull_contacts.size() < 100)
+            frame.hull_contacts.push_back(frame.hull_contacts.front());
     int ready[2] = {};
     REQUIRE(pipe(ready) == 0);
     const pid_t child = fork();
@@ -179,7 +183,7 @@ TEST_CASE("a run of 45 frames so far, alive or killed, can be read up to the flu
         std::size_t contacts = 0;
         for (const RunFrame& frame : back->frames) contacts += frame.hull_contacts.size();
         CHECK(contacts > 0);
-        CHECK(contacts % 64 == 0);
+        CHECK(contacts % 1024 == 0);
     }
 }
 
