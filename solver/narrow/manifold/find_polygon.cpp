@@ -52,7 +52,8 @@ PairRule pair_rule_of(const Scene& scene, BodyPair pair, const ContactRule& rule
     if (rule.normal != NormalRule::surface || pair.a == static_cast<std::int32_t>(kShip))
         return PairRule::spheres;
     const Shape &a = scene.shape_of(pair.a), &b = scene.shape_of(pair.b);
-    // level ice of which one body has no parts meets by spheres: solids would cut the other one
+    // Only the ship crushes level ice, but contacts of solids would cut the body without parts.
+    // Such a pair therefore meets by its spheres.
     if (rule.crushes && (!a.parts.empty() || !b.parts.empty()))
         return a.parts.empty() || b.parts.empty() ? PairRule::spheres : PairRule::parts;
     return a.convex.empty() || b.convex.empty() ? PairRule::spheres : PairRule::solids;
