@@ -7,6 +7,7 @@
 
 #include "common/geometry/plane_crossing.hpp"
 #include "common/math/ordered_products.hpp"
+#include "solver/narrow/feature/face_corners.hpp"
 
 namespace ice {
 
@@ -24,43 +25,28 @@ struct Meeting {
     const ConvexPiece& incident;
     RelativePose pose;  // of the incident piece
     std::size_t face;
-    IncidentFace choice;
+    IncidentFaces which;
 };
 
-// The incident face: of the planes that `counts` names the one that is turned most against the
-// reference's face.
-template <class Counts>
-std::size_t most_opposed(const ConvexPiece& incident, const Vec3& towards, const Counts& counts) {
+// Of the incident piece's planes the one that is turned most against the reference's face.
+std::size_t incident_plane(const Meeting& m, const Vec3& n) {
+    const Vec3 towards = ordered_transposed(m.pose.rotation, n);
     std::size_t best = 0;
     double least = 2.0;
-    for (std::size_t k = 0; k < incident.plane_count(); ++k) {
-        const double facing = ordered_dot(incident.normals[k], towards);
-        if (facing >= least || !counts(k)) continue;
+    for (std::size_t k = 0; k < m.incident.plane_count(); ++k) {
+        const double facing = ordered_dot(m.incident.normals[k], towards);
+        if (facing >= least) continue;
         least = facing;
         best = k;
     }
     return best;
 }
 
-std::size_t incident_plane(const Meeting& m, const Vec3& n) {
-    const ConvexPiece& incident = m.incident;
-    const Vec3 towards = ordered_transposed(m.pose.rotation, n);
-    if (m.choice == IncidentFace::most_opposed)
-        return most_opposed(incident, towards, [](std::size_t) { return true; });
-    const auto height = [&](std::size_t k) { return ordered_dot(incident.corners[k], towards); };
-    double lowest = height(0);
-    for (std::size_t k = 1; k < incident.corners.size(); ++k) lowest = std::min(lowest, height(k));
-    return most_opposed(incident, towards, [&](std::size_t plane) {
-        const std::vector<std::int32_t>& loop = incident.loops[plane];
-        return std::any_of(loop.begin(), loop.end(), [&](std::int32_t corner) {
-            return height(static_cast<std::size_t>(corner)) <= lowest + PolygonTolerances::kPrefer;
-        });
-    });
-}
-
 // Keeps the part of work.polygon within the side plane, which is `slack` [m] farther out.
 void clip(const SidePlane& side, double slack, std::uint32_t number, ClippingWork& work) {
-    auto& [face, polygon, rest, height] = work;
+    auto& polygon = work.polygon;
+    auto& rest = work.rest;
+    auto& height = work.height;
     height.clear();
     for (const ClippedCorner& corner : polygon)
         height.push_back(ordered_dot(side.outward, corner.at) - (side.offset + slack));
@@ -159,9 +145,12 @@ private:
     std::vector<ClippedCorner>& polygon_;
 };
 
-// Corners between the reference's face and the clipped incident one, in the reference's axes.
+// Corners between the reference's face and the incident faces, in the reference's axes.
 void meet_faces(const Meeting& m, double gap, double most, std::uint32_t kind, ClippingWork& work,
                 ContactPolygon& out) {
+    if (m.which == IncidentFaces::all)
+        return append_face_corners(m.reference, m.face, m.incident, m.pose, slack_of_gap(gap), most,
+                                   kind, work.corners, out.corners);
     const Vec3 n = m.reference.normals[m.face];
     const std::uint32_t face_id = kind << 30 | static_cast<std::uint32_t>(m.face) << 14;
     ClippedFace(m, slack_of_gap(gap), work).for_each([&](const Vec3& at, std::uint32_t id) {
@@ -219,12 +208,16 @@ void meet_edges(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& 
 
 enum class AxisKind { face_a, face_b, edges };
 
+// In the order a's face, b's face, edges: a later kind needs a wider gap by kPrefer.
+AxisKind widest_face(const SeparatingAxes& axes) {
+    return axes.face_b > axes.face_a + PolygonTolerances::kPrefer ? AxisKind::face_b
+                                                                  : AxisKind::face_a;
+}
+
 AxisKind widest_kind(const SeparatingAxes& axes) {
-    // In the order a's face, b's face, edges: a later kind needs a wider gap by kPrefer.
-    const bool of_b = axes.face_b > axes.face_a + PolygonTolerances::kPrefer;
-    if (axes.edges > (of_b ? axes.face_b : axes.face_a) + PolygonTolerances::kPrefer)
-        return AxisKind::edges;
-    return of_b ? AxisKind::face_b : AxisKind::face_a;
+    const AxisKind face = widest_face(axes);
+    const double gap = face == AxisKind::face_b ? axes.face_b : axes.face_a;
+    return axes.edges > gap + PolygonTolerances::kPrefer ? AxisKind::edges : face;
 }
 
 AxisKind exactly_widest_kind(const SeparatingAxes& axes) {
@@ -244,7 +237,7 @@ struct Pieces {
     const ConvexPiece &a, &b;
     const RelativePose& pose;
     const SeparatingAxes& axes;
-    IncidentFace choice;
+    IncidentFaces which;
     double most;  // [m]
 };
 
@@ -258,16 +251,26 @@ void meet_along(AxisKind kind, const Pieces& p, ClippingWork& work, ContactPolyg
     }
     if (kind == AxisKind::face_a) {
         const auto plane = static_cast<std::size_t>(p.axes.plane_a);
-        meet_faces({p.a, p.b, p.pose, plane, p.choice}, p.axes.face_a, p.most, 0u, work, out);
+        meet_faces({p.a, p.b, p.pose, plane, p.which}, p.axes.face_a, p.most, 0u, work, out);
         return;
     }
     // b's face is the reference: the same in b's axes, and back again
     const RelativePose back{p.pose.rotation.transpose(),
                             -ordered_transposed(p.pose.rotation, p.pose.translation)};
     const auto plane = static_cast<std::size_t>(p.axes.plane_b);
-    meet_faces({p.b, p.a, back, plane, p.choice}, p.axes.face_b, p.most, 1u, work, out);
+    meet_faces({p.b, p.a, back, plane, p.which}, p.axes.face_b, p.most, 1u, work, out);
     for (PolygonCorner& corner : out.corners)
         corner.point = ordered_product(p.pose.rotation, corner.point) + p.pose.translation;
+}
+
+// The polygon over the wider face where the pieces overlap as deep over it as along two edges;
+// false where they do not.
+bool meet_in_face_of_edges(const Pieces& p, ClippingWork& work, ContactPolygon& out) {
+    if (p.axes.edges >= 0.0) return false;
+    meet_along(widest_face(p.axes), p, work, out);
+    double deepest = 0.0;
+    for (const PolygonCorner& corner : out.corners) deepest = std::min(deepest, corner.gap);
+    return std::abs(deepest - p.axes.edges) <= -PolygonTolerances::kFaceShare * p.axes.edges;
 }
 
 }  // namespace
@@ -288,13 +291,18 @@ Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose&
 }
 
 void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
-                          const SeparatingAxes& axes, IncidentFace choice, double most,
+                          const SeparatingAxes& axes, IncidentFaces which, double most,
                           ClippingWork& work, ContactPolygon& out) {
     const AxisKind preferred = widest_kind(axes), widest = exactly_widest_kind(axes);
-    meet_along(preferred, {a, b, pose, axes, choice, most}, work, out);
+    const Pieces pieces{a, b, pose, axes, which, most};
+    const bool met = which == IncidentFaces::all && preferred == AxisKind::edges &&
+                     meet_in_face_of_edges(pieces, work, out);
+    if (!met) meet_along(preferred, pieces, work, out);
     // An axis that is preferred by kPrefer may be that of a face beside the contact.
-    if (out.corners.empty() && widest != preferred)
-        meet_along(widest, {a, b, pose, axes, choice, most}, work, out);
+    if (out.corners.empty() && widest != preferred) meet_along(widest, pieces, work, out);
+    // A corner may lie beside the incident face by up to the gap. A nearly upright face is far
+    // below the reference there, but no point of the piece is deeper than the axis says.
+    for (PolygonCorner& corner : out.corners) corner.gap = std::max(corner.gap, axes.widest());
 }
 
 }  // namespace ice

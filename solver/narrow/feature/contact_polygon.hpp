@@ -24,6 +24,12 @@ struct PolygonTolerances {
     /// side planes of flush faces differ by rounding. More gives contacts beside the face; less
     /// loses corners on its side planes.
     static constexpr double kBesidePlane = 1e-4;
+
+    /// Two edges that overlap are no axis where the deepest corner over a face is as deep as they
+    /// are, to this share [-]. Floes that lie on each other with a small twist would be held in one
+    /// point, another one in each step, and rock deeper and deeper. More takes a face where edges
+    /// cross beside it; less lets floes rock.
+    static constexpr double kFaceShare = 0.1;
 };
 
 /// One corner of the polygon in which two pieces meet.
@@ -52,37 +58,46 @@ struct ClippedCorner {
     std::uint32_t edge;
 };
 
+/// Work memory of append_face_corners.
+struct FaceCornersWork {
+    std::vector<Vec3> places;     ///< of the incident piece's corners, the reference's axes [m]
+    std::vector<double> heights;  ///< of these over the face [m]
+    std::vector<double> beyond;   ///< how far they are beyond each side plane, by corner [m]
+};
+
 /// Work memory of make_contact_polygon, which keeps its capacity between pairs.
 struct ClippingWork {
+    FaceCornersWork corners;
     std::vector<Vec3> face;                    ///< the incident face before it is clipped
     std::vector<ClippedCorner> polygon, rest;  ///< what is left of it, before and after a cut
     std::vector<double> height;                ///< of the polygon over a side plane [m]
 };
 
-/// Which face of the incident piece is clipped.
-enum class IncidentFace {
-    /// Of the faces at its deepest corner the one that is turned most against the reference. Where
-    /// crushing has rounded the piece, a small face elsewhere may be turned more, but has none of
-    /// the deep corners.
-    at_deepest_corner,
-    /// The one of all faces. For parts of a body, whose deepest corner may lie on a cut, where no
-    /// face of the body ends.
+/// Which faces of the incident piece meet the reference.
+enum class IncidentFaces {
+    /// All that are turned against it (append_face_corners).
+    all,
+    /// The one whose normal is most opposed, clipped. For parts of a body: their cuts are no faces,
+    /// and corners on a cut are none of the body.
     most_opposed,
 };
 
 /// The corners of the polygon in which two convex pieces meet, as far as their gap is at most
 /// `most` [m]; keeps `out`'s memory.
 ///
-/// The axis with the widest gap decides. Where it is a face's, that face is the reference; of the
-/// other piece the face that is turned against it is the incident one (IncidentFace), clipped by
-/// the reference's side planes (Sutherland and Hodgman, Reentrant polygon clipping, CACM 17, 1974).
-/// Two edges meet in one point, midway between them where they are nearest. A face that has not
-/// touched yet may be past a side plane by its gap: it may come from beside. An axis that is
-/// preferred by PolygonTolerances::kPrefer may have no corner, because its face is beside the
-/// contact; then the widest one is taken. No corners where every gap exceeds `most`.
+/// The axis with the widest gap decides. Where it is a face's, that face is the reference, and the
+/// corners are those of the other piece's surface over it (IncidentFaces). Two edges meet in one
+/// point, midway between them where they are nearest. With IncidentFaces::all a face is the
+/// reference in their place where pieces overlap over it as deep as along the edges, by
+/// PolygonTolerances::kFaceShare. A face that has not touched yet may be past a side plane by its
+/// gap: it may come from beside. An axis that is preferred by PolygonTolerances::kPrefer may have
+/// no corner, because its face is beside the contact; then the widest one is taken. No corner is
+/// deeper than the widest axis says. No corners where every gap exceeds `most`.
+///
+/// Source of the clipping: Sutherland and Hodgman, Reentrant polygon clipping, CACM 17, 1974.
 /// @param axes  find_axes() of these pieces and this pose, all kinds
 void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
-                          const SeparatingAxes& axes, IncidentFace choice, double most,
+                          const SeparatingAxes& axes, IncidentFaces which, double most,
                           ClippingWork& work, ContactPolygon& out);
 
 /// The point midway between the two edges of the widest axis where their lines are nearest, but no

@@ -110,7 +110,7 @@ void meet_parts(const SolidPart& a, const SolidPart& b, const RelativePose& pose
     if (axes.widest() > most) return;
     const Vec3 n = axis_normal(a.solid, b.solid, pose, axes);
     if (!faces(b, ordered_transposed(pose.rotation, n)) || !faces(a, -n)) return;
-    make_contact_polygon(a.solid, b.solid, pose, axes, IncidentFace::most_opposed, most, clipping,
+    make_contact_polygon(a.solid, b.solid, pose, axes, IncidentFaces::most_opposed, most, clipping,
                          polygon);
     if (polygon.corners.empty() && axes.widest() < 0.0 && is_edge_axis(axes))
         lost.push_back({&a, &b, axes, number});
@@ -120,9 +120,6 @@ void meet_parts(const SolidPart& a, const SolidPart& b, const RelativePose& pose
         return;
     for (PolygonCorner& corner : polygon.corners) {
         corner.id |= number << 32;
-        // A corner may lie beside the incident face by up to the gap. A nearly upright face is far
-        // below the reference there, but no point of the solid is deeper than the axis says.
-        corner.gap = std::max(corner.gap, axes.widest());
         corners.push_back({corner, polygon.normal});
     }
 }

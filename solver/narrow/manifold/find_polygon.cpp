@@ -61,9 +61,12 @@ PairRule pair_rule_of(const Scene& scene, BodyPair pair, const ContactRule& rule
 
 void find_polygon(const SolidPair& solids, const SeparatingAxes& axes, double most,
                   ClippingWork& work, ContactPolygon& polygon) {
-    make_contact_polygon(solids.a, solids.b, solids.pose, axes, IncidentFace::at_deepest_corner,
-                         most, work, polygon);
-    reduce_polygon(kManifoldCorners, polygon);
+    make_contact_polygon(solids.a, solids.b, solids.pose, axes, IncidentFaces::all, most, work,
+                         polygon);
+    if (polygon.corners.size() > kManifoldCorners) {
+        order_around(polygon);
+        reduce_polygon(kManifoldCorners, polygon);
+    }
     std::sort(
         polygon.corners.begin(), polygon.corners.end(),
         [](const PolygonCorner& l, const PolygonCorner& r) { return place_key(l) < place_key(r); });

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/feature/face_corners.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "common/geometry/plane_crossing.hpp"
+#include "common/math/ordered_products.hpp"
+
+namespace ice {
+
+namespace {
+
+// What a corner is, in its id: 2 bits for the kind of axis, 6 for the face, 2 for this, and 22 for
+// the numbers of the features.
+enum class Met : std::uint32_t { incident_corner, edge_over_side, reference_corner };
+static_assert(ConvexPiece::kMost <= 64);
+
+class FaceCorners {
+public:
+    FaceCorners(const ConvexPiece& reference, std::size_t face, const ConvexPiece& incident,
+                const RelativePose& pose, double slack, double most, std::uint32_t kind,
+                FaceCornersWork& work, std::vector<PolygonCorner>& out)
+        : reference_(reference),
+          incident_(incident),
+          pose_(pose),
+          sides_(reference.side_planes[face]),
+          n_(reference.normals[face]),
+          offset_(reference.offsets[face]),
+          slack_(slack),
+          most_(most),
+          id_(kind << 30 | static_cast<std::uint32_t>(face) << 24),
+          work_(work),
+          out_(out) {
+        work.places.clear();
+        work.heights.clear();
+        work.beyond.clear();
+        for (std::size_t k = 0; k < incident.corners.size(); ++k) {
+            const Vec3 at = ordered_product(pose.rotation, incident.corners[k]) + pose.translation;
+            work.places.push_back(at);
+            work.heights.push_back(ordered_dot(n_, at) - offset_);
+            for (const SidePlane& side : sides_) work.beyond.push_back(beyond(side, at));
+        }
+    }
+
+    void append() {
+        for (std::size_t k = 0; k < work_.places.size(); ++k)
+            if (work_.heights[k] <= most_ && is_over_face(k))
+                add(work_.places[k], work_.heights[k], Met::incident_corner, k, 0);
+        for (std::size_t e = 0; e < incident_.edges.size(); ++e) add_crossings(e);
+        const std::vector<std::int32_t>& loop = loop_of_face();
+        for (const std::int32_t corner : loop) add_below(static_cast<std::size_t>(corner));
+    }
+
+private:
+    double beyond(const SidePlane& side, const Vec3& at) const {
+        return ordered_dot(side.outward, at) - (side.offset + slack_);
+    }
+    double beyond(std::size_t corner, std::size_t side) const {
+        return work_.beyond[corner * sides_.size() + side];
+    }
+    bool is_over_face(std::size_t corner) const {
+        for (std::size_t s = 0; s < sides_.size(); ++s)
+            if (beyond(corner, s) > 0.0) return false;
+        return true;
+    }
+
+    // Where an edge of the incident piece enters or leaves the space over the face.
+    void add_crossings(std::size_t e) {
+        const auto p = static_cast<std::size_t>(incident_.edges[e].begin),
+                   q = static_cast<std::size_t>(incident_.edges[e].end);
+        if (std::min(work_.heights[p], work_.heights[q]) > most_) return;
+        for (std::size_t s = 0; s < sides_.size(); ++s) {
+            const double hp = beyond(p, s), hq = beyond(q, s);
+            if ((hp <= 0.0) == (hq <= 0.0)) continue;
+            const Vec3 at = plane_crossing(work_.places[p], hp, work_.places[q], hq);
+            const double height = ordered_dot(n_, at) - offset_;
+            if (height <= most_ && is_within_others(at, s))
+                add(at, height, Met::edge_over_side, e, s);
+        }
+    }
+    bool is_within_others(const Vec3& at, std::size_t side) const {
+        for (std::size_t s = 0; s < sides_.size(); ++s)
+            if (s != side && beyond(sides_[s], at) > 0.0) return false;
+        return true;
+    }
+
+    // Under a corner of the face: where the line along the normal enters the incident piece.
+    void add_below(std::size_t corner) {
+        const Vec3 at = reference_.corners[corner];
+        const Vec3 from = ordered_transposed(pose_.rotation, Vec3(at - pose_.translation)),
+                   along = ordered_transposed(pose_.rotation, n_);
+        double enters = -std::numeric_limits<double>::infinity(), leaves = -enters;
+        for (std::size_t k = 0; k < incident_.plane_count(); ++k) {
+            const double facing = ordered_dot(incident_.normals[k], along),
+                         above = incident_.offsets[k] - ordered_dot(incident_.normals[k], from);
+            if (facing < 0.0) enters = std::max(enters, above / facing);
+            if (facing > 0.0) leaves = std::min(leaves, above / facing);
+            if (facing == 0.0 && above < 0.0) return;
+        }
+        if (enters <= leaves && enters <= most_)
+            add(at + enters * n_, enters, Met::reference_corner, corner, 0);
+    }
+
+    void add(const Vec3& at, double height, Met met, std::size_t first, std::size_t second) {
+        // half of the gap back from the incident surface: midway between the surfaces
+        out_.push_back({at - 0.5 * height * n_, height,
+                        id_ | static_cast<std::uint32_t>(met) << 22 |
+                            static_cast<std::uint32_t>(first << 8 | second)});
+    }
+
+    const std::vector<std::int32_t>& loop_of_face() const {
+        return reference_.loops[(id_ >> 24) & 63u];
+    }
+
+    const ConvexPiece& reference_;
+    const ConvexPiece& incident_;
+    const RelativePose& pose_;
+    const std::vector<SidePlane>& sides_;
+    Vec3 n_;
+    double offset_, slack_, most_;
+    std::uint32_t id_;
+    FaceCornersWork& work_;
+    std::vector<PolygonCorner>& out_;
+};
+
+}  // namespace
+
+void append_face_corners(const ConvexPiece& reference, std::size_t face,
+                         const ConvexPiece& incident, const RelativePose& pose, double slack,
+                         double most, std::uint32_t kind, FaceCornersWork& work,
+                         std::vector<PolygonCorner>& out) {
+    FaceCorners(reference, face, incident, pose, slack, most, kind, work, out).append();
+}
+
+}  // namespace ice
