@@ -122,6 +122,8 @@ class StudyPlanner(Planner):
         if key.endswith(".hold"):
             return defaults["floes"][0].get("hold") if floes else None
         sheet = "level_ice" in self.case_keys
+        if key == "level_ice.spacing" and sheet:
+            return change(self.base_value("level_ice.thickness"), 0.7, lambda a, b: a * b)
         bends = sheet or any(group.get("hold") == "until-bent" for group in floes)
         sections = ["floes.", *([] if sheet else ["level_ice."]), *([] if bends else ["bending."])]
         return None if key.startswith(tuple(sections)) else flatten(defaults).get(key)

@@ -36,7 +36,7 @@ std::string kind_text(const Key& key) {
         case Kind::pair_list:
             return "list of [t, u]";
         case Kind::curve:
-            return "list of [U, value]";
+            return "list of [speed, value]";
         case Kind::words:
             return "list of " + std::string(key.choices);
         case Kind::choice_or_vector:

@@ -229,14 +229,17 @@ private:
         const bool curve = key.kind == Kind::curve;
         // a table over time, or over the ship's speed
         const Dimension first = curve ? Dimension::speed : Dimension::time;
-        const char* const form = curve ? "[U, value] with U" : "[t, u] with t";
+        const char* const form = curve ? "[speed, value] with the speed" : "[t, u] with t";
         for (std::size_t k = 0; list && k < list->size(); ++k) {
             const auto* row = list->get(k)->as_array();
             std::pair<double, double> pair;
             // rows rise: values between them are interpolated, and a time twice would be a jump
-            if (!row || row->size() != 2 || !read_scalar(key, first, *row->get(0), pair.first) ||
-                !read_scalar(key, key.dimension, *row->get(1), pair.second) ||
-                (!rows.empty() && pair.first <= rows.back().first)) {
+            const bool two = row && row->size() == 2;
+            // a number that is none, or out of its range, has a complaint of its own
+            if (two && (!read_scalar(key, first, *row->get(0), pair.first) ||
+                        !read_scalar(key, key.dimension, *row->get(1), pair.second)))
+                return false;
+            if (!two || (!rows.empty() && pair.first <= rows.back().first)) {
                 complain(
                     list->get(k)->source(),
                     fmt::format("{} row {} must be {} above the row before", key.path, k + 1, form),
@@ -247,10 +250,10 @@ private:
         }
         // Also reached by a node that is no list: the loop above then had no row.
         if (rows.empty()) {
-            complain(
-                node.source(),
-                fmt::format("{} must be a list of {}", key.path, curve ? "[U, value]" : "[t, u]"),
-                1);
+            complain(node.source(),
+                     fmt::format("{} must be a list of {}", key.path,
+                                 curve ? "[speed, value]" : "[t, u]"),
+                     1);
             return false;
         }
         out = rows;

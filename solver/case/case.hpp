@@ -64,12 +64,18 @@ struct BendingLaw {
     std::vector<std::pair<double, double>> factor_table;
 };
 
+/// Default of level_ice.spacing, in thicknesses [-]: a little less than the widest spacing at which
+/// no corner passes between the spheres, whose radius is a quarter of the thickness
+/// (kWidestSpacing). Smaller gives more spheres and slower runs.
+constexpr double kLevelIceSpacing = 0.7;
+
 /// [level_ice]: a sheet that the ship breaks into pieces (solver/level_ice).
 struct LevelIce {
     double thickness = 0.0;          ///< [m]; 0: none
     std::array<double, 4> extent{};  ///< smallest and largest x, smallest and largest y [m]
-    /// Distance of contact spheres [m]; gap between a tile and its neighbours [m].
-    double spacing = 0.5, gap = 0.05;
+    /// Distance of contact spheres [m], here kLevelIceSpacing of ice 1 m thick; gap between a tile
+    /// and its neighbours [m].
+    double spacing = 0.7, gap = 0.05;
     int seed = 0;  ///< of the cracks' scatter
     /// CrackLaw: C_l [-], C_v [s/m], largest relative deviation [-].
     double length_factor = 0.32, speed_factor = -0.144, scatter = 0.2;

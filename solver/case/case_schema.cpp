@@ -227,7 +227,7 @@ std::vector<CaseKey> bending_keys() {
     return {
         // the plate of (28) and (29); factor and table stand beside the formulas
         {"bending.flexural_strength", Kind::number, D::pressure, "5e5", kTiny, 1e9, 0, "",
-         "Largest bending stress that ice bears, for floes with hold until-bent.",
+         "Largest bending stress that ice bears, for [level_ice] and floes with hold until-bent.",
          [](Case& c, G&, const Value& v) { c.bending.flexural_strength = number(v); }},
         {"bending.elastic_modulus", Kind::number, D::pressure, "5e9", 1.0, 1e12, 0, "",
          "Young's modulus of the ice.",
@@ -272,12 +272,12 @@ std::vector<CaseKey> level_ice_keys() {
              const auto& x = std::get<std::vector<double>>(v);
              c.level_ice.extent = {x[0], x[1], x[2], x[3]};
          }},
-        {"level_ice.spacing", Kind::number, D::length, "0.5", 1e-3, 100, 0, "",
-         "Distance of the pieces' contact spheres on their surface; their radius is a quarter of "
-         "the thickness, in 2D no more than the spacing.",
+        {"level_ice.spacing", Kind::number, D::length, "-", 1e-3, 100, 0, "",
+         "Distance of the pieces' contact spheres on their surface; default 0.7 thicknesses. Their "
+         "radius is a quarter of the thickness, in 2D no more than the spacing.",
          [](Case& c, G&, const Value& v) { c.level_ice.spacing = number(v); }},
         {"level_ice.gap", Kind::number, D::length, "0.05", 0, 10, 0, "",
-         "Open water between pieces, as broad as a crack.",
+         "Breadth of a crack: open water between pieces.",
          [](Case& c, G&, const Value& v) { c.level_ice.gap = number(v); }},
         {"level_ice.seed", Kind::integer, D::none, "0", 0, 2e9, 0, "",
          "Seed of the pieces' random sizes; simulation.seed changes them, too.",
@@ -290,7 +290,7 @@ std::vector<CaseKey> level_ice_keys() {
         {"level_ice.speed_factor", Kind::number, D::none, "-0.144", -10, 10, 0, "",
          "Relative change of that radius with the speed along the hull's normal [s/m]; in 3D.",
          [](Case& c, G&, const Value& v) { c.level_ice.speed_factor = number(v); }},
-        {"level_ice.scatter", Kind::number, D::none, "0.2", 0, 0.9, 0, "",
+        {"level_ice.scatter", Kind::number, D::share, "0.2", 0, 0.9, 0, "",
          "Largest random deviation of that radius, in 2D of the length, as a share of it.",
          [](Case& c, G&, const Value& v) { c.level_ice.scatter = number(v); }},
     };

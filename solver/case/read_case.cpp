@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "common/base/error.hpp"
@@ -182,7 +183,11 @@ private:
                                   : "required key 'hull.speed' (or hull.speed_table) is missing");
         check_flow();
         for (std::size_t g = 0; g < groups_; ++g) check_source(g);
-        if (groups_ == 0) check_level_ice();
+        if (groups_ == 0)
+            check_level_ice();
+        else
+            check_sheet_keys();
+        set_sheet_spacing();
         // the first third, in which the ship enters the ice, is left out
         if (!values_.contains("output.average_from") && values_.contains("simulation.duration"))
             values_["output.average_from"] = std::get<double>(values_["simulation.duration"]) / 3.0;
@@ -212,6 +217,29 @@ private:
             complaints_.add(
                 "no [[floes]] table and no [level_ice]: a run needs at least one group of floes");
         }
+    }
+
+    // Spheres as far apart as the sheet's thickness allows, in whole nanometres, which the resolved
+    // case prints with few digits.
+    void set_sheet_spacing() {
+        const std::string spacing = "level_ice.spacing";
+        const auto thickness = values_.find("level_ice.thickness");
+        if (thickness == values_.end() || mistakes_.bad_keys.contains(spacing)) return;
+        if (const double h = std::get<double>(thickness->second); h > 0.0)
+            values_.try_emplace(spacing, std::round(1e9 * kLevelIceSpacing * h) / 1e9);
+    }
+
+    // Beside floes a sheet is a choice, and its keys mean nothing without one.
+    void check_sheet_keys() {
+        const std::string thickness = "level_ice.thickness";
+        if (values_.contains(thickness) || mistakes_.bad_keys.contains(thickness)) return;
+        const auto key = std::find_if(values_.begin(), values_.end(), [](const auto& value) {
+            return value.first.starts_with("level_ice.");
+        });
+        if (key != values_.end())
+            complaints_.add_at(key->first, key->first +
+                                               " is given, but there is no sheet: give "
+                                               "level_ice.thickness, or leave [level_ice] out");
     }
 
     // The flow comes from a file with model "file" alone.

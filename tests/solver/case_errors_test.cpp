@@ -137,6 +137,55 @@ TEST_CASE("without floes level ice needs a thickness above 0", "[case][errors]")
     CHECK(complaint(kGood + "[level_ice]\nthickness = 0\n").empty());
 }
 
+TEST_CASE("keys of level ice and bending that nothing takes are named",
+          "[case][errors][level_ice]") {
+    const std::string sheet =
+        with("[contact]", "[level_ice]\nthickness = 0.4\nextent = [0, 9, -5, 5]\n[contact]");
+    REQUIRE(complaint(sheet).empty());
+    CHECK(contains(complaint(kGood, {"level_ice.gap=0.2"}),
+                   "--set level_ice.gap=0.2: error: level_ice.gap is given, but there is no sheet: "
+                   "give level_ice.thickness, or leave [level_ice] out"));
+    CHECK(complaint(sheet, {"level_ice.thickness=0", "level_ice.gap=0.2"}).empty());
+    CHECK(contains(complaint(sheet, {"bending.model=kashtelyan", "bending.load_length=0.5"}),
+                   "bending.load_length is given, but only bending.model = \"wedge\" takes it"));
+    CHECK(complaint(sheet, {"bending.load_length=0.5", "bending.opening_angle=1"}).empty());
+    const std::vector<std::string> flat{"simulation.dimension=2", "floes.count=[5,1]",
+                                        "contact.crushing_pressure=1e6"};
+    REQUIRE(complaint(sheet, flat).empty());
+    for (const char* key : {"bending.load_length", "bending.opening_angle"}) {
+        std::vector<std::string> overrides = flat;
+        overrides.push_back(std::string(key) + "=0.5");
+        CHECK(contains(complaint(sheet, overrides), std::string(key) + " is given, but in 2D "));
+    }
+    CHECK(contains(complaint(sheet, {"bending.factor=0"}), "bending.factor = 0: ice without"));
+    CHECK(contains(complaint(sheet, {"level_ice.spacing=0.61"}),
+                   "level_ice.spacing = 0.61 m is more than 1.5 thicknesses of the ice"));
+    CHECK(contains(complaint(sheet, {"level_ice.scatter=20"}), "20 % is 0.2, or \"20 %\""));
+}
+
+TEST_CASE("water lighter than ice is named by the key that is wrong", "[case][errors][level_ice]") {
+    const std::string sheet =
+        with("[contact]", "[level_ice]\nthickness = 0.4\nextent = [0, 9, -5, 5]\n[contact]");
+    CHECK(contains(complaint(sheet, {"environment.water_density=1.025"}),
+                   "--set environment.water_density=1.025: error: ice.density = 900 kg/m3 is not "
+                   "below environment.water_density = 1.025 kg/m3: the sheet has no floating "
+                   "equilibrium; if 1.025 t/m3 is meant, write \"1.025 t/m3\""));
+    CHECK(contains(complaint(sheet, {"ice.density=1100"}),
+                   "--set ice.density=1100: error: ice.density = 1100 kg/m3 is not below"));
+}
+
+TEST_CASE("a table of speeds has one complaint a row, in its own words", "[case][errors]") {
+    const auto of = [](const std::string& rows) {
+        return complaint(kGood, {"bending.factor_table=" + rows});
+    };
+    CHECK(contains(of("[[0,1],[0,2]]"),
+                   "bending.factor_table row 2 must be [speed, value] with "
+                   "the speed above the row before"));
+    const std::string text = of("[[0,-1],[1,-5]]");
+    CHECK(contains(text, "bending.factor_table = -1 is outside [0, 100]"));
+    CHECK_FALSE(contains(text, "above the row before"));
+}
+
 TEST_CASE("of a file full of mistakes the first twenty are shown, the others counted",
           "[case][errors]") {
     std::string text;

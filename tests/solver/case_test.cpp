@@ -32,6 +32,23 @@ TEST_CASE("a case reads with units, defaults and derived values", "[case]") {
     CHECK(c.floes[0].spheres.is_absolute());
 }
 
+TEST_CASE("spheres of level ice are as far apart as its thickness allows", "[case][level_ice]") {
+    const std::string sheet = with("[contact]",
+                                   "[level_ice]\nthickness = 0.4\nextent = [0, 9, -5, 5]\n"
+                                   "scatter = \"20 %\"\n[contact]");
+    const CaseFolder folder(sheet);
+    const Case c = read_case(folder.file());
+    CHECK(c.level_ice.spacing == Near(0.28));
+    CHECK(c.level_ice.scatter == 0.2);
+    CHECK(contains(c.resolved, "\nspacing = 0.28"));
+    CHECK(read_case(folder.file(), {"level_ice.thickness=1"}).level_ice.spacing == Near(0.7));
+    CHECK(read_case(folder.file(), {"level_ice.spacing=0.5"}).level_ice.spacing == 0.5);
+    const CaseFolder again(c.resolved);
+    CHECK(read_case(again.file()).resolved == c.resolved);
+    // without a sheet there are no spheres of it
+    CHECK(read_case(CaseFolder(kGood).file()).resolved.find("0.28") == std::string::npos);
+}
+
 TEST_CASE("the resolved case reads back as the same case", "[case][property]") {
     const CaseFolder folder(kGood);
     const Case first = read_case(folder.file(), {"contact.restitution=0.12345678901234567"});

@@ -181,6 +181,12 @@ floes.mean_size = 1.0
     assert labels(p, "flexural strength") == ["375 kPa", "625 kPa"]
     assert labels(p, "ice's spheres") == ["0.49 m", "0.98 m"]
     assert not labels(p, "release rule")
+    # the spacing that a case leaves to the thickness is varied as that
+    level = read(f"{SOURCE}/cases/level-ice-icebreaker/case.cfg")
+    write(f"{folder}/case/level.cfg",
+          level.replace('spacing = "0.7 m"\n', "").replace('thickness = "1 m"', "thickness = 0.5"))
+    p = plan(STUDY.replace("case/case.cfg", "case/level.cfg"))
+    assert labels(p, "ice's spheres") == ["0.245", "0.49"], labels(p, "ice's spheres")
 
     expect_fault(STUDY.replace("title", "titel"), "unknown key 'titel'")
     expect_fault(STUDY.replace("case.cfg", "none.cfg"), "not readable")
