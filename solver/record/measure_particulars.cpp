@@ -114,6 +114,10 @@ IceParticulars measure_ice(const Scene& scene, const Case& parameters) {
     bool used[std::size(kHoldNames)] = {};
     for (std::size_t i = 1; i < scene.bodies.size(); ++i)
         used[static_cast<std::size_t>(group_of(scene, parameters, i).hold)] = true;
+    // a sheet's rules are those of the case, whatever of it is left or broken by now
+    if (parameters.has_level_ice())
+        for (const Hold hold : {Hold::until_bent, Hold::always})
+            used[static_cast<std::size_t>(hold)] = true;
     for (std::size_t k = 0; k < std::size(kHoldNames); ++k)
         if (used[k]) ice.hold.emplace_back(kHoldNames[k]);
     return ice;
