@@ -119,6 +119,31 @@ void LiveEdge::add_slots(Scene& scene, const Case& p) {
     scene.bodies.breaking_load.resize(scene.bodies.size(), kNever);
 }
 
+// Cracks have to be in the sheet, and gaps have to leave ice between them.
+void LiveEdge::check_cracks(const Case& p) const {
+    const Vec2 size = extent_.sizes();
+    const double room = is_strip_ ? size.x() : size.minCoeff();
+    if (radius_ > room)
+        throw bad_input(p.file.string() + ": level_ice",
+                        fmt::format("cracks {:.3g} m from the load are longer than the sheet, "
+                                    "which is {:.3g} m {}",
+                                    radius_, room, room == size.x() ? "long" : "broad"),
+                        is_strip_
+                            ? "make level_ice.extent longer, or check bending.elastic_modulus"
+                            : "make level_ice.extent larger, or check level_ice.length_factor "
+                              "and bending.elastic_modulus");
+    // Half a gap is cut off all sides of a body: of a strip's shortest piece a piece must be left,
+    // of a whole cell a tile that holds a sphere.
+    const double whole = is_strip_ ? radius_ * (1.0 - law_.scatter) : radius_;
+    const double longest_gap =
+        whole - (is_strip_ ? kSmallestPiece : 2.0 * kLeastHalfBreadth) * thickness_;
+    if (gap_ > longest_gap)
+        throw bad_input(p.file.string() + ": level_ice.gap",
+                        fmt::format("{:.3g} m leave no ice of {} that are {:.3g} m long", gap_,
+                                    is_strip_ ? "pieces" : "the parts of the edge", whole),
+                        fmt::format("give at most {:.3g} m", std::max(longest_gap, 0.0)));
+}
+
 void LiveEdge::begin(Scene& scene, Case& p) {
     set_up(scene, p);
     const std::vector<Loop> hull = hull_in_ice(scene);
@@ -126,13 +151,7 @@ void LiveEdge::begin(Scene& scene, Case& p) {
         throw bad_input(p.file.string() + ": level_ice",
                         "the hull does not reach the height of the ice",
                         "change hull.draught or level_ice.thickness");
-    // half a gap is cut off both ends of a body: the shortest piece must be left
-    const double longest_gap = radius_ * (1.0 - law_.scatter) - kSmallestPiece * thickness_;
-    if (is_strip_ && gap_ > longest_gap)
-        throw bad_input(p.file.string() + ": level_ice.gap",
-                        fmt::format("{:.3g} m leave no ice of pieces that are {:.3g} m long", gap_,
-                                    radius_ * (1.0 - law_.scatter)),
-                        fmt::format("give at most {:.3g} m", std::max(longest_gap, 0.0)));
+    check_cracks(p);
     const double least = kSmallestPiece * thickness_;
     sheet_ = IceSheet(extent_, is_strip_ ? std::sqrt(least) : least);  // as long, 1 m broad
     // the hull lies in the sheet from the start: its own place is taken out

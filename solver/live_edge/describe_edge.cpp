@@ -27,15 +27,20 @@ IceAreas without_rounding(IceAreas areas) {
 
 namespace {
 
+std::string pieces_text(std::int64_t count) {
+    return fmt::format("{} piece{}", count, count == 1 ? "" : "s");
+}
+
 // The published ranges are beside the numbers because they are the quickest check of a case:
 // cracks far outside them mean a wrong strength, modulus or thickness.
 std::string describe_strip(const LiveEdge& edge) {
     const IceAreas areas = without_rounding(edge.areas());
     const auto pieces = edge.pieces();
     std::string out = fmt::format(
-        "level ice: {} pieces broke off, {:.4g} m; crushed {:.3g} m, brash {:.3g} m; {} pieces far "
-        "astern taken out",
-        pieces.size(), areas.pieces, areas.crushed, areas.brash, edge.retired());
+        "level ice: {} broke off, {:.4g} m; crushed {:.3g} m, brash {:.3g} m; {} far astern taken "
+        "out",
+        pieces_text(edge.broken()), areas.pieces, areas.crushed, areas.brash,
+        pieces_text(edge.retired()));
     if (pieces.empty()) return out;
     double length = 0.0, load = 0.0;
     for (const IcePiece& piece : pieces) {
@@ -56,9 +61,10 @@ std::string describe_edge(const LiveEdge& edge) {
     const IceAreas areas = without_rounding(edge.areas());
     const auto pieces = edge.pieces();
     std::string out = fmt::format(
-        "level ice: {} pieces broke off, {:.4g} m2; crushed {:.3g} m2, brash {:.3g} m2; {} pieces "
-        "far astern taken out",
-        pieces.size(), areas.pieces, areas.crushed, areas.brash, edge.retired());
+        "level ice: {} broke off, {:.4g} m2; crushed {:.3g} m2, brash {:.3g} m2; {} far astern "
+        "taken out",
+        pieces_text(edge.broken()), areas.pieces, areas.crushed, areas.brash,
+        pieces_text(edge.retired()));
     if (pieces.empty()) return out;
     double radius = 0.0, load = 0.0, angle = 0.0;
     Eigen::AlignedBox1d channel;

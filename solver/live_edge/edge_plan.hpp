@@ -16,6 +16,10 @@ namespace ice {
 // thickness. Larger makes more brash, smaller makes pieces that hold few spheres.
 constexpr double kSmallestPiece = 0.5;
 
+// Ice is filled if something is left of its outline this far inwards, in thicknesses [-]: a radius
+// of its spheres, and a little more, so that a sphere does not just touch. Larger makes more brash.
+constexpr double kLeastHalfBreadth = 0.26;
+
 // Least distance of an outline's corners [m]: nearer ones would each get a sphere in a corner.
 // Larger moves outlines by up to as much.
 constexpr double kNearest = 1e-3;

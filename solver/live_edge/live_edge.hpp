@@ -60,7 +60,8 @@ public:
 
     /// Lays the sheet of a case into a scene with or without other floes; adds the groups of its
     /// bodies to the case. The sheet has no ice where the ship is.
-    /// @throws Error (exit code 2) naming level_ice where the hull does not reach the ice's height
+    /// @throws Error (exit code 2) naming level_ice where the hull does not reach the ice's height,
+    ///         where cracks are longer than the sheet, or where gaps leave no ice between them
     void begin(Scene& scene, Case& parameters);
 
     /// Sets how long the ice has drifted [s]; called before is_due(), renew() and find() of a step.
@@ -145,6 +146,7 @@ private:
 
     void carry_pieces(CheckpointFile& file);
     void set_up(const Scene& scene, const Case& parameters);
+    void check_cracks(const Case& parameters) const;
     void add_slots(Scene& scene, const Case& parameters);
     bool is_tile(std::int32_t body) const;
     Loop region_of(const Vec2& at, const Vec2& inwards, double radius) const;

@@ -16,10 +16,6 @@ namespace {
 // Smaller gives more spheres to a body, and a longer search; larger ones do not fit.
 constexpr double kRadius = 0.25;
 
-// Ice is filled if something is left of its outline this far inwards, in thicknesses [-]: a radius,
-// and a little more, so that the sphere does not just touch. Larger makes more brash.
-constexpr double kHolds = 0.26;
-
 // From the sheet to slots without ice [m]: beyond every neighbour list. Nothing else depends on it.
 constexpr double kParked = 1000.0;
 
@@ -53,7 +49,7 @@ Vec2 parked_at(const Eigen::AlignedBox2d& sheet, double thickness, std::size_t s
 }
 
 bool can_be_filled(const Loop& outline, double thickness) {
-    return !shrunk(outline, kHolds * thickness, 0.0, kNearest).empty();
+    return !shrunk(outline, kLeastHalfBreadth * thickness, 0.0, kNearest).empty();
 }
 
 }  // namespace ice

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "solver/record/measure_particulars.hpp"
+#include "solver/run/sheet_course.hpp"
 #include "solver/scene/ice_extent.hpp"
 
 namespace ice {
@@ -127,12 +128,14 @@ double time_of(const Case& p, double distance) {
     return after;
 }
 
-void measure_clearance(const World& w, const Front& front, Course& course) {
+void measure_clearance(const World& w, const Front& front, double direction, Course& course) {
     const Bodies& b = w.scene.bodies;
     course.clearance = course.clearance_fixed = kNever;
-    if (w.edge.has_sheet())  // the sheet's tiles come with the ship
-        course.clearance =
-            std::max(w.parameters.level_ice.extent[0] - box_of(w.scene, kShip).max().x(), 0.0);
+    if (w.edge.has_sheet()) {  // the sheet's tiles come with the ship
+        const SheetCourse sheet = measure_sheet_course(w, direction);
+        course.clearance = sheet.clearance;
+        course.beside = sheet.beside;
+    }
     for (std::size_t i = 1; i < b.size(); ++i) {
         // slots hold the sheet, which was measured above
         if (w.edge.has_slot(i)) continue;
@@ -148,18 +151,23 @@ void measure_clearance(const World& w, const Front& front, Course& course) {
     }
 }
 
-// The ship's travel until its foremost point is beyond all loose floes within its breadth.
+// The ship's travel until its foremost point is beyond the sheet and all loose floes within its
+// breadth.
 double distance_through(const World& w, double direction) {
     const Eigen::AlignedBox3d hull = box_of(w.scene, kShip);
-    double far = w.edge.has_sheet() ? w.parameters.level_ice.extent[1] : -kNever;
+    double far = -kNever, sheet = 0.0;
+    if (w.edge.has_sheet())
+        if (const SheetCourse course = measure_sheet_course(w, direction);
+            std::isfinite(course.through))
+            sheet = course.through;
     for (std::size_t i = 1; i < w.scene.bodies.size(); ++i) {
-        if (is_unbroken(w.scene, w.parameters, i)) continue;
+        if (w.edge.has_slot(i) || is_unbroken(w.scene, w.parameters, i)) continue;
         const Eigen::AlignedBox3d box = box_of(w.scene, i);
         // loose floes beside the path are not met
         if (box.max().y() < hull.min().y() || box.min().y() > hull.max().y()) continue;
         far = std::max(far, direction > 0.0 ? box.max().x() : -box.min().x());
     }
-    return std::max(far - (direction > 0.0 ? hull.max().x() : -hull.min().x()), 0.0);
+    return std::max(far - (direction > 0.0 ? hull.max().x() : -hull.min().x()), sheet);
 }
 
 bool any_floe_moves(const Bodies& b) {
@@ -179,7 +187,14 @@ bool nothing_moves(const World& w) {
 void warn_of_meeting(const Case& p, const Course& c, std::vector<Warning>& warnings) {
     // From the gravest to the mildest: a run without ice needs no word about its averages.
     const double averaged = p.duration - p.average_from;
-    if (c.clearance == kNever && p.ship_travel(0.0, p.duration) < 0.0) {
+    const char* const longer = p.has_level_ice() ? "a longer level_ice.extent" : "a longer field";
+    if (c.clearance == kNever && c.beside) {
+        warnings.push_back(
+            {fmt::format("the ship passes beside the level ice, which lies from y = {:g} to {:g} "
+                         "m, and meets nothing: move hull.position or level_ice.extent",
+                         p.level_ice.extent[2], p.level_ice.extent[3]),
+             true});
+    } else if (c.clearance == kNever && p.ship_travel(0.0, p.duration) < 0.0) {
         warnings.push_back(
             {fmt::format("the ship moves astern, {:.4g} m at {:.4g} m/s, and no ice lies on its "
                          "course: its bow is at +x; give hull.speed without the minus sign, or "
@@ -209,15 +224,14 @@ void warn_of_meeting(const Case& p, const Course& c, std::vector<Warning>& warni
         warnings.push_back(
             {fmt::format("the bow leaves the ice at {:.4g} s, before forces are averaged from "
                          "{:.4g} s: set output.average_from and simulation.duration earlier, or "
-                         "use a longer field",
-                         c.leaves_at, p.average_from),
+                         "use {}",
+                         c.leaves_at, p.average_from, longer),
              true, 1.0});
     } else if (p.duration - c.leaves_at > kOpenShare * averaged) {
         warnings.push_back(
             {fmt::format("the bow leaves the ice at {:.4g} s, and forces are averaged "
-                         "up to {:.4g} s: shorten simulation.duration, or use a "
-                         "longer field",
-                         c.leaves_at, p.duration),
+                         "up to {:.4g} s: shorten simulation.duration, or use {}",
+                         c.leaves_at, p.duration, longer),
              true, (p.duration - c.leaves_at) / averaged});
     }
 }
@@ -229,7 +243,7 @@ Course measure_course(const World& w) {
     Course course;
     const double travel = p.ship_travel(0.0, p.duration), direction = travel < 0.0 ? -1.0 : 1.0;
     course.travel = std::abs(travel);
-    measure_clearance(w, Front(w.scene, direction), course);
+    measure_clearance(w, Front(w.scene, direction), direction, course);
     course.meets_at = time_of(p, course.clearance);
     course.hits_fixed_at = time_of(p, course.clearance_fixed);
     course.through = distance_through(w, direction);

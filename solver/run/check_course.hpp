@@ -20,6 +20,7 @@ struct Course {
     double hits_fixed_at = 0.0;    ///< when it meets unbroken ice [s]
     double through = 0.0;          ///< until its foremost point is beyond all loose floes [m]
     double leaves_at = 0.0;        ///< when its foremost point is beyond all loose floes [s]
+    bool beside = false;           ///< level ice: whether the ship passes beside the sheet
 };
 
 /// Measures the course from the contact spheres: ice lies in the path where the hull's cross

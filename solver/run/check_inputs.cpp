@@ -57,12 +57,22 @@ constexpr UsualRange kStrength{.key = "bending.flexural_strength",
                                .examples = "0.2 to 1 MPa are common, 20 to 60 kPa in model basins",
                                .units = kPressureUnits};
 constexpr UsualRange kModulus{.key = "bending.elastic_modulus",
-                              .low = 1e6,
-                              .high = 2e10,
+                              .low = 5e8,
+                              .high = 1.2e10,
                               .usual = 5e9,
-                              .bounds = "1 MPa to 20 GPa",
-                              .examples = "1 to 10 GPa are common, 10 MPa and more in model basins",
+                              .bounds = "0.5 to 12 GPa",
+                              .examples = "1 to 10 GPa are common",
                               .units = kPressureUnits};
+// of ice as weak as that of model basins
+constexpr UsualRange kModelModulus{.key = "bending.elastic_modulus",
+                                   .low = 1e6,
+                                   .high = 1.2e10,
+                                   .usual = 1e8,
+                                   .bounds = "1 MPa to 12 GPa",
+                                   .examples = "10 to 500 MPa are common in model basins",
+                                   .units = kPressureUnits};
+// Strength below which ice is a model basin's [Pa].
+constexpr double kModelStrength = 1e5;
 
 // In the largest unit in which the number is 1 or more.
 std::string in_own_unit(double value, std::span<const InputUnit> units) {
@@ -85,7 +95,9 @@ std::string meant_value(const UsualRange& range, double value) {
         text = as_text;
     };
     for (const InputUnit& unit : range.units.subspan(1)) {
-        consider(value * unit.factor, fmt::format("{:g} {}", value, unit.name));
+        // as it was written, unless that is a number of many digits
+        consider(value * unit.factor, value < 1e3 ? fmt::format("{:g} {}", value, unit.name)
+                                                  : in_own_unit(value * unit.factor, range.units));
         consider(value / unit.factor, in_own_unit(value / unit.factor, range.units));
     }
     return text;
@@ -130,7 +142,9 @@ std::vector<Warning> check_inputs(const Case& parameters) {
         check_pressure(kCrushing, parameters.contact.crushing_pressure, warnings);
     if (parameters.has_bending()) {
         check_pressure(kStrength, parameters.bending.flexural_strength, warnings);
-        check_pressure(kModulus, parameters.bending.elastic_modulus, warnings);
+        const bool is_model = parameters.bending.flexural_strength < kModelStrength;
+        check_pressure(is_model ? kModelModulus : kModulus, parameters.bending.elastic_modulus,
+                       warnings);
     }
     return warnings;
 }

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
 #include "common/formats/widest_spacing.hpp"
 #include "solver/record/solid_overlap.hpp"
+#include "solver/run/check_sheet.hpp"
 #include "solver/run/unfelt_hull.hpp"
 #include "solver/scene/ice_extent.hpp"
 #include "solver/scene/tunnelling_speed.hpp"
@@ -57,24 +59,28 @@ std::vector<BodyPair> pairs_at_start(Scene& scene, const Case& parameters) {
 // some 30 others within their bounds at most.
 std::size_t most_worth_a_look(const Scene& scene) { return 1000 + 100 * scene.bodies.size(); }
 
-std::string name_of(std::int32_t body) {
-    return body == 0 ? std::string("the hull") : fmt::format("floe {}", body);
+// Bodies of the sheet of level ice have no number that a user knows.
+std::string name_of(const World& w, std::int32_t body) {
+    if (body == 0) return "the hull";
+    return w.edge.has_slot(static_cast<std::size_t>(body)) ? std::string("the level ice")
+                                                           : fmt::format("floe {}", body);
 }
 
-std::string describe(const StartOverlap& o) {
-    const std::string who = o.inside < 0
-                                ? fmt::format("{} and {}", name_of(o.a), name_of(o.b))
-                                : fmt::format("{} lies wholly inside {}: they", name_of(o.inside),
-                                              name_of(o.inside == o.a ? o.b : o.a));
+std::string describe(const World& w, const StartOverlap& o) {
+    const std::string who =
+        o.inside < 0 ? fmt::format("{} and {}", name_of(w, o.a), name_of(w, o.b))
+                     : fmt::format("{} lies wholly inside {}: they", name_of(w, o.inside),
+                                   name_of(w, o.inside == o.a ? o.b : o.a));
     return fmt::format(
         "{} overlap by {:.3g} m at the start, at x = {:.2f}, y = {:.2f}, z = {:.2f} m", who,
         o.depth, o.point.x(), o.point.y(), o.point.z());
 }
 
-std::string describe(const std::vector<StartOverlap>& overlaps, const char* separator) {
+std::string describe(const World& w, const std::vector<StartOverlap>& overlaps,
+                     const char* separator) {
     std::string text;
     for (std::size_t k = 0; k < std::min(overlaps.size(), kMostNamed); ++k)
-        text += (k > 0 ? separator : "") + describe(overlaps[k]);
+        text += (k > 0 ? separator : "") + describe(w, overlaps[k]);
     if (overlaps.size() > kMostNamed)
         text += fmt::format("{}and {} pairs more", separator, overlaps.size() - kMostNamed);
     return text;
@@ -83,6 +89,12 @@ std::string describe(const std::vector<StartOverlap>& overlaps, const char* sepa
 // How to separate them. The first remedy needs no new field: for a hull in loose ice, the place at
 // which its bow lies before all of it.
 std::string remedy(const World& w, const std::vector<StartOverlap>& overlaps) {
+    const bool in_sheet = std::any_of(overlaps.begin(), overlaps.end(), [&](const auto& o) {
+        return o.a != kShip && w.edge.has_slot(static_cast<std::size_t>(o.b));
+    });
+    if (in_sheet)
+        return "a sheet has no openings for [[floes]]: lay them beside level_ice.extent, or leave "
+               "one of the two out; --allow-overlap runs it all the same";
     std::string move = "move the hull (hull.position)";
     const Eigen::AlignedBox2d& ice = w.scene.start.loose;
     const bool in_hull = std::any_of(overlaps.begin(), overlaps.end(), [&](const auto& o) {
@@ -106,8 +118,12 @@ void warn_of_spacing(const World& w, std::vector<Warning>& warnings) {
     std::vector<double> in_radii;
     for (const Shape& shape : w.scene.shapes)
         in_radii.push_back(shape.spacing / smallest_radius(shape));
-    const auto& row = w.scene.bodies.shape;
-    const auto widest = std::max_element(row.begin(), row.end(), [&](auto l, auto r) {
+    // of the hull and of floes that were laid; check_sheet() says it of level ice
+    const std::vector<std::int32_t>& row = w.scene.bodies.shape;
+    const auto end = w.edge.has_sheet()
+                         ? row.begin() + static_cast<std::ptrdiff_t>(w.edge.first_body())
+                         : row.end();
+    const auto widest = std::max_element(row.begin(), end, [&](auto l, auto r) {
         return in_radii[static_cast<std::size_t>(l)] < in_radii[static_cast<std::size_t>(r)];
     });
     if (in_radii[static_cast<std::size_t>(*widest)] <= limit * (1.0 + kSpacingRounding)) return;
@@ -115,7 +131,7 @@ void warn_of_spacing(const World& w, std::vector<Warning>& warnings) {
     const std::string text = fmt::format(
         "the surface spheres of {} are {:.3g} m apart; above {:g} radii corners may pass between "
         "them{}: make its set with a spacing of {:.3g} m",
-        name_of(static_cast<std::int32_t>(widest - row.begin())), shape.spacing, limit,
+        name_of(w, static_cast<std::int32_t>(widest - row.begin())), shape.spacing, limit,
         centres ? " (contact.normal = \"centres\")" : "", limit * smallest_radius(shape));
     warnings.push_back({text});
 }
@@ -159,7 +175,7 @@ void warn_of_speed(const World& w, std::vector<Warning>& warnings) {
     const std::string text = fmt::format(
         "{} moves at {:.3g} m/s, but bodies may pass through each other above {:.3g} m/s, a "
         "contact sphere's diameter per step: lower simulation.time_step to {:.2g} s",
-        who == 0 ? "the ship" : name_of(who) + ", seen from the ship,", fastest, limit,
+        who == 0 ? "the ship" : name_of(w, who) + ", seen from the ship,", fastest, limit,
         p.time_step * limit / fastest);
     warnings.push_back({text});
 }
@@ -205,11 +221,13 @@ std::vector<Warning> check_start(World& world, bool allow_overlap) {
     std::vector<Warning> warnings;
     const auto overlaps = find_start_overlaps(world.scene, world.parameters);
     if (!overlaps.empty() && !allow_overlap)
-        throw bad_input(world.parameters.file.string(), describe(overlaps, "\n  "),
+        throw bad_input(world.parameters.file.string(), describe(world, overlaps, "\n  "),
                         remedy(world, overlaps));
-    if (!overlaps.empty()) warnings.push_back({describe(overlaps, "; ")});
+    if (!overlaps.empty()) warnings.push_back({describe(world, overlaps, "; ")});
     warn_of_speed(world, warnings);
     warn_of_spacing(world, warnings);
+    for (Warning& warning : check_sheet(world, allow_overlap))
+        warnings.push_back(std::move(warning));
     warn_of_unfelt_hull(world, warnings);
     return warnings;
 }

@@ -29,9 +29,9 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
 /// Looks at a world that was just built.
 /// @return warnings: the ship or a floe is faster than tunnelling_speed; spheres farther apart than
 ///         kWidestSpacing, with the rule "centres" than they are wide; part of the hull in the ice
-///         belt that no sphere represents; overlaps, where allowed
+///         belt that no sphere represents; overlaps, where allowed; those of check_sheet()
 /// @throws Error (exit code 2) naming the bodies that overlap, how deep and where, unless
-///         `allow_overlap`
+///         `allow_overlap`; of check_sheet()
 std::vector<Warning> check_start(World& world, bool allow_overlap);
 
 }  // namespace ice

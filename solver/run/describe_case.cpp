@@ -94,6 +94,17 @@ std::string distance_text(double distance) {
     return std::isfinite(distance) ? fmt::format("{:.3g} m", distance) : "none";
 }
 
+std::string clearance_line(const World& w, const Course& course) {
+    // a sheet is unbroken ice and gives way
+    if (w.edge.has_sheet())
+        return fmt::format("\n  clearance  {} to the level ice", distance_text(course.clearance));
+    const std::string first = distance_text(course.clearance);
+    if (w.parameters.ship.free[surge])
+        return fmt::format("\n  clearance  {} to the first ice", first);
+    return fmt::format("\n  clearance  {} to the first ice, {} to unbroken ice", first,
+                       distance_text(course.clearance_fixed));
+}
+
 // Duration and speed as lengths of the ship, since a mean needs some of these.
 std::string course_line(const World& w, const ShipParticulars& ship, const Course& course) {
     const Case& p = w.parameters;
@@ -101,17 +112,15 @@ std::string course_line(const World& w, const ShipParticulars& ship, const Cours
     if (p.ship.free[surge])
         return fmt::format(
             "  course     from {:g} m/s as thrust and ice make it, {} steps of {:g} s; averaged "
-            "from {:g} s\n  clearance  {} to the first ice",
+            "from {:g} s{}",
             p.ship_speed(0.0), std::llround(p.duration / p.time_step), p.time_step, p.average_from,
-            distance_text(course.clearance));
+            clearance_line(w, course));
     const TravelParticulars travel = measure_travel(p, ship, p.duration);
     return fmt::format(
         "  course     {:.4g} m, {:.2f} ship lengths, in {} steps of {:g} s; averaged over {}, "
-        "from {:g} s\n"
-        "  clearance  {} to the first ice, {} to unbroken ice",
+        "from {:g} s{}",
         travel.distance, travel.lengths, std::llround(p.duration / p.time_step), p.time_step,
-        averaged_text(travel.averaged_lengths), p.average_from, distance_text(course.clearance),
-        distance_text(course.clearance_fixed));
+        averaged_text(travel.averaged_lengths), p.average_from, clearance_line(w, course));
 }
 
 std::string spheres_line(const World& w) {

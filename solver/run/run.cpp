@@ -15,6 +15,7 @@
 #include "solver/record/measure_particulars.hpp"
 #include "solver/record/recorder.hpp"
 #include "solver/record/warn_of_open_end.hpp"
+#include "solver/run/check_sheet.hpp"
 #include "solver/run/disk_room.hpp"
 #include "solver/run/make_water.hpp"
 #include "solver/run/measure_imbalance.hpp"
@@ -92,6 +93,7 @@ void write_summary(const World& w, const RunOptions& options, double wall_second
     recorder.finish(view_of(w), summary);  // its warnings use the travel
     if (auto warning = warn_of_open_end(w.scene, w.parameters, summary.travel.distance))
         summary.warnings.push_back(*warning);
+    if (auto warning = warn_of_whole_ice(w)) summary.warnings.push_back(*warning);
     fill_run(w, wall_seconds, summary);
     write_text_file(options.folder / "summary.json", summary_text(summary));
 }

@@ -43,7 +43,7 @@ def main():
         after = run(options, folder, options.until + options.measure, "--restart",
                     Path(folder) / "checkpoint.h5")
         log = (Path(folder) / "run.log").read_text(encoding="utf8")
-    broken, gone = re.findall(r"(\d+) pieces broke off.* (\d+) pieces far astern", log)[-1]
+    broken, gone = re.findall(r"(\d+) pieces? broke off.* (\d+) pieces? far astern", log)[-1]
     print(f"{int(broken) - int(gone)} pieces alive, {options.threads} threads:\n")
     print("| stage | wall s per simulated second |\n|---|---|")
     stages = {name: seconds - before["stage_seconds"][name]

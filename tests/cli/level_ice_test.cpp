@@ -104,9 +104,30 @@ TEST_CASE("level ice that cannot be is refused with its key", "[cli][level_ice][
     refuses("contact.crushing_pressure=inf", "needs a finite contact.crushing_pressure");
     refuses("level_ice.thickness=-1", "level_ice.thickness");
     refuses("output.track=[1]", "pieces that break off [level_ice] cannot be tracked");
+    refuses("level_ice.spacing=0.5", "level_ice.spacing = 0.5 m is more than 1.5 thicknesses");
+    refuses("level_ice.gap=1.8", "level_ice.gap: 1.8 m leave no ice");
+    refuses("hull.position=[-20,0]", "with x = -29.7 m its bow lies before the ice");
+    CHECK(w.run("icesolve case.cfg --check --set hull.position=[-29.7,0]").code == 0);
+    CHECK(w.run("icesolve case.cfg --check --allow-overlap --set hull.position=[-20,0]").code == 0);
     const Result far = w.run("icesolve case.cfg --check --set level_ice.extent=[100,120,-8,8]");
     CHECK(far.code == 0);
     CHECK_THAT(far.err + far.out, Catch::Contains("never meets the ice"));
+}
+
+TEST_CASE("a run that ends before any ice broke is one in level ice, and tells of it",
+          "[cli][level_ice]") {
+    const Workshop w;
+    prepare(w);
+    // strong ice, and a ship that is in it by more than a crack's length at the end
+    const Result r = w.run(
+        "icesolve case.cfg --out run --no-report --set bending.factor=50 --set level_ice.gap=0.02 "
+        "--set simulation.duration=4");
+    CAPTURE(r.err);
+    REQUIRE(r.code == 0);
+    CHECK_THAT(r.err + r.out, Catch::Contains("no piece broke off, although the ship is") &&
+                                  Catch::Contains("level ice: 0 pieces broke off"));
+    const Summary s = read_summary(w / "run" / "summary.json");
+    CHECK(s.ice.hold == std::vector<std::string>{"until-bent", "always"});
 }
 
 TEST_CASE("in 2D level ice breaks off in a beam's lengths", "[cli][level_ice][strip]") {

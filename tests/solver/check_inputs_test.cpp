@@ -70,8 +70,15 @@ TEST_CASE("a number in a wrong unit gets a warning with the unit that may be mea
     p = usual_ice();
     p.bending.elastic_modulus = 5.0;
     CHECK_THAT(only_warning(p).text,
-               Catch::StartsWith("bending.elastic_modulus = 5 Pa is outside 1 MPa to 20 GPa; ") &&
+               Catch::StartsWith("bending.elastic_modulus = 5 Pa is outside 0.5 to 12 GPa; ") &&
                    Catch::EndsWith("write \"5 GPa\""));
+    // a model basin's modulus is wrong in ice that is as strong as in nature
+    p.bending.elastic_modulus = 5e6;
+    CHECK_THAT(only_warning(p).text,
+               Catch::StartsWith("bending.elastic_modulus = 5e+06 Pa is outside 0.5 to 12 GPa; ") &&
+                   Catch::EndsWith("if 5 GPa is meant, write \"5 GPa\""));
+    p.bending.flexural_strength = 4e4;
+    CHECK(check_inputs(p).empty());
 }
 
 TEST_CASE("the strength of ice that does not bend is not looked at", "[step]") {
