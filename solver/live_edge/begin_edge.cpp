@@ -137,11 +137,18 @@ void LiveEdge::check_cracks(const Case& p) const {
     const double whole = is_strip_ ? radius_ * (1.0 - law_.scatter) : radius_;
     const double longest_gap =
         whole - (is_strip_ ? kSmallestPiece : 2.0 * kLeastHalfBreadth) * thickness_;
+    if (longest_gap <= 0.0)
+        throw bad_input(p.file.string() + ": level_ice",
+                        fmt::format("cracks {:.3g} m from the load leave no piece of ice {:.3g} m "
+                                    "thick that holds a contact sphere",
+                                    radius_, thickness_),
+                        is_strip_ ? "check bending.elastic_modulus and level_ice.scatter"
+                                  : "check bending.elastic_modulus and level_ice.length_factor");
     if (gap_ > longest_gap)
         throw bad_input(p.file.string() + ": level_ice.gap",
                         fmt::format("{:.3g} m leave no ice of {} that are {:.3g} m long", gap_,
                                     is_strip_ ? "pieces" : "the parts of the edge", whole),
-                        fmt::format("give at most {:.3g} m", std::max(longest_gap, 0.0)));
+                        fmt::format("give at most {:.3g} m", longest_gap));
 }
 
 void LiveEdge::begin(Scene& scene, Case& p) {
@@ -151,7 +158,6 @@ void LiveEdge::begin(Scene& scene, Case& p) {
         throw bad_input(p.file.string() + ": level_ice",
                         "the hull does not reach the height of the ice",
                         "change hull.draught or level_ice.thickness");
-    check_cracks(p);
     const double least = kSmallestPiece * thickness_;
     sheet_ = IceSheet(extent_, is_strip_ ? std::sqrt(least) : least);  // as long, 1 m broad
     // the hull lies in the sheet from the start: its own place is taken out
@@ -162,6 +168,7 @@ void LiveEdge::begin(Scene& scene, Case& p) {
     piece_group_ = add_group(p, Hold::until_bent);
     tile_group_ = add_group(p, Hold::always);
     add_slots(scene, p);
+    check_cracks(p);
     scene.start = {extent_, true, true};
     looked_at_ = laid_at_ = ship_in_ice(scene);
     Plan plan;

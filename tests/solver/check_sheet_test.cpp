@@ -153,7 +153,10 @@ TEST_CASE("gaps and cracks that leave no ice are refused", "[level_ice][edge][er
                    Catch::Contains("give at most 0.838 m"));
     p.level_ice.gap = 0.83;
     CHECK(make_world(p).edge.has_sheet());
-    p = sheet_case(0.8, 20.0);
+    p.level_ice.gap = 0.01;
+    p.level_ice.length_factor = 0.05;  // cracks of 0.155 m
+    CHECK_THAT(error_text([&] { make_world(p); }),
+               Catch::Contains("level_ice: cracks 0.155 m from the load leave no piece"));
     p.level_ice.length_factor = 10.0;
     CHECK_THAT(error_text([&] { make_world(p); }),
                Catch::Contains("cracks 31.1 m from the load are longer than the sheet, which is 16 "
