@@ -12,10 +12,8 @@ namespace ice {
 
 namespace {
 
-constexpr const char* kLindqvist = "Lindqvist 1989";
 constexpr const char* kRiska = "Riska 1997";
 constexpr const char* kBroken = "buoyancy + clearing";
-constexpr const char* kTotal = "total";
 
 // The value of the options if it is finite, else that of the run. NaN marks an unknown value.
 double known_or(double value, double otherwise) { return std::isfinite(value) ? value : otherwise; }
@@ -91,6 +89,21 @@ std::optional<FormulaBand> band_of(const std::vector<FormulaValue>& formulas) {
         band.high = std::max(band.high, f.value);
     }
     return band;
+}
+
+std::vector<std::pair<std::string, std::string>> recalled_formulas(
+    const std::vector<FormulaValue>& formulas) {
+    std::vector<std::pair<std::string, std::string>> out;
+    for (const FormulaValue& f : formulas) {
+        if (f.verified) continue;
+        const auto known = std::find_if(out.begin(), out.end(),
+                                        [&](const auto& entry) { return entry.first == f.name; });
+        if (known == out.end())
+            out.emplace_back(f.name, f.part);
+        else
+            known->second += ", " + f.part;
+    }
+    return out;
 }
 
 std::string part_text(const FormulaValue& f) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "common/formats/particulars.hpp"
@@ -17,6 +19,10 @@ namespace ice {
 inline constexpr double kFlexuralStrength = 5e5;  ///< [Pa]
 inline constexpr double kElasticModulus = 5e9;    ///< [Pa]
 inline constexpr double kPoissonRatio = 0.3;      ///< [-]
+
+/// Names in FormulaValue: of Lindqvist's formula, and of any formula's total in level ice.
+inline constexpr const char* kLindqvist = "Lindqvist 1989";
+inline constexpr const char* kTotal = "total";
 
 /// Inputs of the formulas that the user may give.
 struct FormulaOptions {
@@ -48,6 +54,11 @@ struct FormulaBand {
     double low = 0.0, high = 0.0;
 };
 std::optional<FormulaBand> band_of(const std::vector<FormulaValue>& formulas);
+
+/// The formulas with a part that no published number confirmed, by name, each with those parts.
+std::vector<std::pair<std::string, std::string>> recalled_formulas(
+    const std::vector<FormulaValue>& formulas);
+inline constexpr const char* kRecalled = "recalled, compared with no published number";
 
 /// The name of a formula's part in texts, e.g. "submersion part".
 std::string part_text(const FormulaValue& formula);

@@ -88,4 +88,26 @@ fs::path find_summary(const fs::path& path) {
                     remedy);
 }
 
+Summary read_with_members(const fs::path& path) {
+    const fs::path file = find_summary(path);
+    Summary summary = read_summary(file);
+    if (!summary.ensemble) return summary;
+    const std::vector<Warning> shared = summary.warnings;
+    for (const std::int64_t seed : summary.ensemble->seeds) {
+        const fs::path member = file.parent_path() / fmt::format("seed-{}", seed) / "summary.json";
+        if (!fs::exists(member)) continue;
+        Summary own = read_summary(member);
+        for (Warning& w : own.warnings) {
+            const auto known = [&](const Warning& other) {
+                return other.text == w.text || other.text.ends_with(": " + w.text);
+            };
+            if (!w.affects_mean.value_or(false) || std::any_of(shared.begin(), shared.end(), known))
+                continue;
+            w.text = fmt::format("seed {}: {}", seed, w.text);
+            summary.warnings.push_back(std::move(w));
+        }
+    }
+    return summary;
+}
+
 }  // namespace ice::read

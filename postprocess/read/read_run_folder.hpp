@@ -27,4 +27,10 @@ RunFolder read_run_folder(const std::filesystem::path& path);
 /// @throws Error (exit code 2) when there is none.
 std::filesystem::path find_summary(const std::filesystem::path& path);
 
+/// The summary of a run, given the folder or the file. That of an ensemble also has the warnings
+/// of its members that affect their mean, "seed 3: ..."; the ensemble's own leave out the trends
+/// that chance explains. Members without a summary.json are passed over.
+/// @throws Error (exit code 2) when there is none.
+Summary read_with_members(const std::filesystem::path& path);
+
 }  // namespace ice::read

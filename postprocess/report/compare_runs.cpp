@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
+#include "common/formulas/formula_band.hpp"
 
 namespace ice::report {
 
@@ -22,6 +23,15 @@ std::vector<std::string> columns_of(int dimension) {
     return names;
 }
 
+// Lindqvist's estimate of the run's mean: the total in level ice, which the ship breaks, and the
+// submersion part alone in ice that is broken already [N]; NaN: not evaluated.
+double lindqvist_of(const Summary& s) {
+    if (!is_level_ice(s.ice)) return s.lindqvist_submersion.value_or(std::nan(""));
+    for (const FormulaValue& f : s.formulas)
+        if (f.name == kLindqvist && f.part == kTotal) return f.value;
+    return std::nan("");
+}
+
 // the columns' values between the first and the last three
 std::vector<double> numbers_of(const Summary& s) {
     // a run that ended before its first step has a share of 0, not a division by 0
@@ -32,7 +42,7 @@ std::vector<double> numbers_of(const Summary& s) {
             s.resistance.friction_mean,
             s.resistance.std,
             s.resistance.max,
-            s.lindqvist_submersion.value_or(std::nan("")),
+            lindqvist_of(s),
             static_cast<double>(s.floes_moved),
             100.0 * static_cast<double>(s.unconverged_steps) / steps};
 }

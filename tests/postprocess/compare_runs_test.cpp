@@ -40,6 +40,43 @@ TEST_CASE("runs are compared a line each, missing values as a dash", "[report]")
     CHECK(compare_text({}).find("mean_N") != std::string::npos);
 }
 
+TEST_CASE("in level ice the column of Lindqvist is his total, which compares with the mean",
+          "[report]") {
+    Summary s = *make_folder().summary;
+    s.formulas = {{"Lindqvist 1989", "submersion", 954.0, false},
+                  {"Lindqvist 1989", "bending", 400.0, false},
+                  {"Lindqvist 1989", "total", 2345.0, false},
+                  {"Riska 1997", "total", 3000.0, false}};
+    CHECK_THAT(compare_csv({{"broken", s}}), Catch::Contains(",1320,954,5,"));
+    s.ice.hold = {"until-bent", "always"};
+    CHECK_THAT(compare_csv({{"level", s}}), Catch::Contains(",1320,2345,5,"));
+    s.formulas.clear();  // no number rather than a part beside a total
+    CHECK_THAT(compare_csv({{"level", s}}), Catch::Contains(",1320,,5,"));
+}
+
+TEST_CASE("the mean of an ensemble is affected as that of its worst member", "[report]") {
+    const TempFolder folder;
+    Summary s = *make_folder().summary;
+    s.warnings = {{"short averages", true, 0.05}};
+    const auto write = [&](const char* name, const Summary& summary) {
+        std::filesystem::create_directories(folder / name);
+        write_bytes(folder / name / "summary.json", summary_text(summary));
+    };
+    write("seed-1", s);
+    Summary trend = s;
+    trend.warnings = {
+        {"short averages", true, 0.04}, {"a trend", true, 0.19}, {"overlap", false, 0.01}};
+    write("seed-2", trend);
+    s.ensemble = Ensemble{1107.0, 12.0, {1100.0, 1114.0}, {1, 2, 3}};  // seed-3 was deleted
+    write(".", s);
+    const Summary read = read::read_with_members(folder.path());
+    REQUIRE(read.warnings.size() == 2);
+    CHECK(read.warnings[0].text == "short averages");
+    CHECK(read.warnings[1].text == "seed 2: a trend");
+    CHECK_THAT(compare_csv({{"ensemble", read}}), Catch::EndsWith(",completed,19\n"));
+    CHECK(read::read_with_members(folder / "seed-1").warnings.size() == 1);
+}
+
 TEST_CASE("runs in 3D and in 2D never share a column: two tables, and no CSV of both", "[report]") {
     const Summary solid = *make_folder().summary;
     Summary flat = *make_folder({.dimension = 2}).summary;
