@@ -13,7 +13,8 @@ namespace ice {
 
 namespace {
 
-// Largest size of a coefficient [-]; Jeong's are 0.5 to 2.7. Larger ones are forces in other
+// No part of the resistance pushes the ship, so that no coefficient of a force is below 0. Largest
+// size of a coefficient [-]; Jeong's are 0.5 to 2.7. Larger ones are forces in other
 // units. It moves only the range that a file is refused by.
 constexpr double kMost = 1e3;
 
@@ -25,11 +26,11 @@ Key number_key(std::string_view path, std::string_view default_text, double low,
 const Schema& coefficients_schema() {
     static const Schema kSchema{
         {{"spencer.name", Kind::text, Dimension::none, "-", 0, 0, 0, "", "Of the ship."},
-         number_key("spencer.c_b", "", -kMost, kMost, "C_B, of buoyancy."),
-         number_key("spencer.c_c", "", -kMost, kMost, "C_C, of clearing."),
+         number_key("spencer.c_b", "", 0.0, kMost, "C_B, of buoyancy."),
+         number_key("spencer.c_c", "", 0.0, kMost, "C_C, of clearing."),
          // below 2: at rest Fr^-a V^2 must vanish (spencer.cpp)
          number_key("spencer.exponent", "", -kMost, 2.0, "a, of the Froude number."),
-         number_key("spencer.c_br", "-", -kMost, kMost, "C_BR, of breaking."),
+         number_key("spencer.c_br", "-", 0.0, kMost, "C_BR, of breaking."),
          number_key("spencer.breaking_exponent", "-", -kMost, 2.0, "b, of the strength number."),
          number_key("uncertainty.c_b", "-", 0.0, INFINITY, "95 % half width."),
          number_key("uncertainty.c_c", "-", 0.0, INFINITY, "95 % half width."),

@@ -23,7 +23,7 @@ struct CoefficientIntervals {
 ///
 ///     [spencer]
 ///     name = "our ship"          # default: the file's name
-///     c_b = 0.5
+///     c_b = 0.5                  # 0 or more, as c_c and c_br
 ///     c_c = 1.11
 ///     exponent = 1.157           # of the Froude number
 ///     c_br = 2.73                # default: Jeong's

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "postprocess/fit/fit_spencer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -124,6 +126,7 @@ void fit_breaking(const std::vector<FitPoint>& points, SpencerFit& fit) {
         const double left =
             point.resistance - fit.coefficients.buoyancy * point.scales.weight -
             fit.coefficients.clearing * clearing(point.scales, fit.coefficients.clearing_exponent);
+        if (!(left > 0.0)) ++fit.level_below;
         if (!(left > 0.0) || !(point.scales.strength > 0.0)) continue;
         x.push_back(-std::log(point.scales.strength));
         y.push_back(std::log(left / point.scales.inertia));
@@ -132,6 +135,7 @@ void fit_breaking(const std::vector<FitPoint>& points, SpencerFit& fit) {
         weighted = weighted && point.half > 0.0;
     }
     const auto n = static_cast<Eigen::Index>(x.size());
+    fit.level_used = x.size();
     if (n < 2) return;
     const auto [low, high] = std::minmax_element(x.begin(), x.end());
     // All points at one strength number fix no exponent.
@@ -154,6 +158,22 @@ void fit_breaking(const std::vector<FitPoint>& points, SpencerFit& fit) {
     fit.breaking_fitted = true;
 }
 
+// One speed gives a sum of both parts only, and they grow differently with the speed. Level ice has
+// a third part, which is fitted after them.
+void refuse_few_speeds(std::size_t speeds, std::size_t level) {
+    constexpr const char* kNeeds = "C_B and C_C follow from broken ice at two speeds or more";
+    if (speeds == 0)
+        throw bad_input(
+            "the sweep",
+            fmt::format("has no run in broken ice, only {} point{} in level ice; {}", level,
+                        level == 1 ? "" : "s", kNeeds),
+            "put runs of the same ship in broken or pre-sawn ice into the same folder, beside "
+            "those in level ice: three speeds or more, one of them creeping");
+    if (speeds == 1)
+        throw bad_input("the sweep", fmt::format("has broken ice at one speed only; {}", kNeeds),
+                        "add runs in broken ice at other speeds, one of them creeping");
+}
+
 }  // namespace
 
 double fitted_resistance(const SpencerFit& fit, const FitPoint& point) {
@@ -171,12 +191,8 @@ SpencerFit fit_spencer(const std::vector<FitPoint>& points) {
         throw bad_input("the sweep",
                         "has no run in 3D that states ship, ice and water (older programs did not)",
                         "run its cases again");
-    // One speed gives a sum of both parts only, and they grow differently with the speed.
     const std::size_t speeds = count_speeds(problem);
-    if (speeds < 2)
-        throw bad_input("the sweep",
-                        "has fewer than two speeds in broken ice, from which C_B and C_C follow",
-                        "add runs at other speeds, one of them creeping");
+    refuse_few_speeds(speeds, points.size() - problem.scales.size());
     SpencerFit fit;
     fit.coefficients.own = true;
     fit.broken = problem.scales.size();

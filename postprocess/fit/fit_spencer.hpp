@@ -22,9 +22,11 @@ struct SpencerFit {
     SpencerCoefficients coefficients;
     CoefficientIntervals intervals;
     std::size_t broken = 0, level = 0;  ///< numbers of points of either kind
-    bool exponent_fitted = false;       ///< else Jeong's, for want of a third speed
-    bool breaking_fitted = false;       ///< level ice at two strength numbers or more
-    double residual = 0.0;              ///< rms of (fit - resistance) / resistance [-]
+    /// Points of level ice that C_BR and b are fitted to; those with less resistance than R_B + R_C
+    std::size_t level_used = 0, level_below = 0;
+    bool exponent_fitted = false;  ///< else Jeong's, for want of a third speed
+    bool breaking_fitted = false;  ///< level ice at two strength numbers or more
+    double residual = 0.0;         ///< rms of (fit - resistance) / resistance [-]
 };
 
 /// Least squares, weighted with the points' intervals where all have one.

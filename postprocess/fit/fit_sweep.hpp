@@ -15,7 +15,8 @@ namespace ice::fit {
 std::vector<FitPoint> fit_points(const sweep::Sweep& sweep, const std::vector<sweep::Point>& points,
                                  double flexural_strength);
 
-/// Warnings of a fit: axes that the formula does not have, few points, no level ice.
+/// Warnings of a fit: axes that the formula does not have; as many coefficients as points;
+/// coefficients that are negative or not determined; runs with an affected mean, by how much.
 std::vector<std::string> fit_warnings(const sweep::Sweep& sweep, const SpencerFit& fit);
 
 /// Coefficients with intervals, then a row per point with both resistances, for a terminal.

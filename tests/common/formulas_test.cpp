@@ -236,6 +236,10 @@ TEST_CASE("a coefficients file comes back, its mistakes have place and remedy", 
     write_bytes(file, "[spencer]\nc_b = 1\nc_c = 2\nexponent = 1\n");
     CHECK(read_coefficients(file).name == "ours");
     CHECK(read_coefficients(file).breaking == SpencerCoefficients().breaking);
+    write_bytes(file, "[spencer]\nc_b = 1\nc_c = -0.25\nexponent = 1\n");
+    CHECK_THROWS_WITH(read_coefficients(file), Catch::Contains(file.string() + ":3:") &&
+                                                   Catch::Contains("spencer.c_c") &&
+                                                   Catch::Contains("-0.25"));
     write_bytes(file, "[spencer]\nc_b = 1\nc_d = 2\nexponent = 3\n");
     CHECK_THROWS_WITH(read_coefficients(file), Catch::Contains(":3:") && Catch::Contains("c_d") &&
                                                    Catch::Contains(":4:") &&
