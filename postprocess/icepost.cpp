@@ -7,6 +7,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/part_file.hpp"
+#include "common/base/usual_range.hpp"
 #include "common/base/version.hpp"
 #include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
@@ -32,9 +33,19 @@ namespace {
 
 using Options = ice::PostOptions;
 
+// A strength that no ice has is most often one in a wrong unit; icesolve warns of it in a case.
+void warn_of_strength(const Options& o) {
+    if (std::isnan(o.flexural_strength)) return;
+    const std::string text =
+        ice::outside_usual(ice::kUsualStrength, "--flexural-strength", o.flexural_strength);
+    if (!text.empty())
+        ice::say_warning(text + " (changes the formulas' values in level ice, not the run's)");
+}
+
 // Own coefficients and a strength, by which formulas are evaluated anew: a run's summary has the
 // values of the program that made it.
 ice::FormulaOptions formula_options(const Options& o) {
+    warn_of_strength(o);
     ice::FormulaOptions out;
     if (!o.coefficients.empty()) out.spencer = ice::read_coefficients(o.coefficients);
     out.flexural_strength = o.flexural_strength;
@@ -89,8 +100,7 @@ int plot(const Options& o) {
 // Summaries alone: a table of many runs reads no poses.
 int compare_runs(const Options& o) {
     std::vector<ice::report::NamedSummary> runs;
-    for (const std::string& run : o.runs)
-        runs.emplace_back(run, ice::read_summary(ice::read::find_summary(run)));
+    for (const std::string& run : o.runs) runs.emplace_back(run, ice::read::read_with_members(run));
     ice::write_data(o.csv ? ice::report::compare_csv(runs) : ice::report::compare_text(runs));
     return 0;
 }
@@ -135,6 +145,7 @@ int sweep(const Options& o) {
 }
 
 int fit(const Options& o) {
+    warn_of_strength(o);
     const auto runs = ice::sweep::read_sweep(o.run);
     const auto points =
         ice::fit::fit_points(runs, ice::sweep::make_points(runs), o.flexural_strength);

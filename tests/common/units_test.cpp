@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "common/base/usual_range.hpp"
 #include "tests/support/tolerance.hpp"
 
 using namespace ice;
@@ -109,4 +110,16 @@ TEST_CASE("inf is read as infinity", "[base]") {
 TEST_CASE("messages can name the SI unit and all units of a dimension", "[base]") {
     CHECK(si_unit(Dimension::density) == "kg/m3");
     CHECK(unit_names(Dimension::length) == "m, km, cm, mm, ft, in");
+}
+
+TEST_CASE("a strength that no ice has is named, with the unit that may be meant", "[base]") {
+    CHECK(outside_usual(kUsualStrength, "sigma", 4.5e5).empty());
+    CHECK(outside_usual(kUsualStrength, "sigma", 2e4).empty());  // of a model basin
+    CHECK(outside_usual(kUsualStrength, "sigma", 450.0) ==
+          "sigma = 450 Pa is outside 10 kPa to 10 MPa; 0.2 to 1 MPa are common, 20 to 60 kPa in "
+          "model basins: if 450 kPa is meant, write \"450 kPa\"");
+    CHECK_THAT(outside_usual(kUsualStrength, "sigma", 5e8),
+               Catch::Contains("if 500 kPa is meant, write \"500 kPa\""));
+    CHECK_THAT(outside_usual(kUsualStrength, "sigma", 1e-6),
+               Catch::EndsWith("check the number and its unit"));
 }

@@ -40,6 +40,11 @@ with tempfile.TemporaryDirectory() as folder:
     # a summary that is not one of icesolve's is refused by the report, by name of the key
     expect(run("report", folder), 2, err="schema: is missing")
     os.remove(path("summary.json"))
+    expect(run("report", folder, "--flexural-strength", "450"), 0,
+           err='--flexural-strength = 450 Pa is outside 10 kPa to 10 MPa')
+    expect(run("report", folder, "--flexural-strength", "450"), 0,
+           err='if 450 kPa is meant, write "450 kPa"')
+    assert "outside" not in run("report", folder, "--flexural-strength", "450 kPa").stderr
     expect(run("-q", "report", folder), 0)
     page = open(path("report.html"), encoding="utf-8").read()
     xml.fromstring(page.replace("<!DOCTYPE html>", ""))  # well-formed
