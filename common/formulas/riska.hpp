@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Riska, Wilhelmson, Englund and Leiviska, "Performance of merchant vessels in ice in the Baltic",
 /// Winter Navigation Research Board 52, 1997.
+///
+/// Range: merchant ships of the Baltic, by the title; lengths, thickness and speed of the source
+/// not read by us. Totals of others were compared for one ship, MT Uikku, in ice of 0.76 to 1.04 m
+/// at 0.2 to 1 m/s.
 #pragma once
 
 #include "common/formulas/level_ice.hpp"

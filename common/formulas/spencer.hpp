@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Resistance by components, after Spencer (ATTC 1992) and Spencer and Jones (ISOPE 2001).
+///
+/// Range of Jeong's coefficients: model tests of one icebreaker, the standard one of MOERI; its
+/// size, thickness and speed not read by us. Totals were compared for MT Uikku in ice of 0.76 to
+/// 1.04 m at 0.2 to 1 m/s.
 #pragma once
 
 #include <string>

@@ -101,8 +101,12 @@ std::string formulas_line(const Summary& s) {
     for (const FormulaValue& f : totals) names.push_back(f.name);
     const Format format = format_for(band->high, 0.0, s.dimension, "N");
     const std::string low = format(band->low), high = format(band->high);
-    return fmt::format("formulas for level ice, total: {}{} {} ({})",
-                       low == high ? "" : low + " to ", high, format.name, fmt::join(names, ", "));
+    std::vector<std::string> recalled;
+    for (const auto& [name, parts] : recalled_formulas(totals)) recalled.push_back(name);
+    return fmt::format(
+        "formulas for level ice, total: {}{} {} ({}){}", low == high ? "" : low + " to ", high,
+        format.name, fmt::join(names, ", "),
+        recalled.empty() ? "" : fmt::format("; {}: {}", kRecalled, fmt::join(recalled, ", ")));
 }
 
 std::string energy_line(const Summary& s) {
