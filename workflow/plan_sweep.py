@@ -85,6 +85,7 @@ class Planner:
             self.out = os.path.abspath(os.path.join("results", stem))
         self.recipes = self.read_recipes()
         self.made = {}  # (program, source, options) -> Input
+        self.passed = set()  # overrides that were checked: key=value
 
     def read_file(self):
         return read_toml(self.path, "sweep file")
@@ -275,7 +276,34 @@ class Planner:
             runs[name] = self.plan_run(name, values, {**constant, **along})
         return self.make_plan(list(axes), runs)
 
+    def check_values(self, runs):
+        """Refuses values that icesolve would not take, before anything runs.
+
+        Each value once, one of each key per call: a key's range knows no other key."""
+        values = {}  # key -> its values in order
+        for run in runs.values():
+            for text in run.overrides:
+                key = text.split("=", 1)[0]
+                if text not in self.passed and not key.endswith((".spheres", ".file")):
+                    self.passed.add(text)
+                    values.setdefault(key, []).append(text)
+        # a hull that does not exist ends the call before it builds anything
+        probe = f"hull.spheres={os.path.join(self.out, 'no hull yet')}"
+        faults = []
+        for k in range(max(map(len, values.values()), default=0)):
+            sets = [texts[k] for texts in values.values() if k < len(texts)]
+            words = [word for text in [*sets, probe] for word in ("--set", text)]
+            done = subprocess.run([self.programs["icesolve"], self.case, "--check", *words],
+                                  capture_output=True, text=True)
+            faults += [line[len("--set "):].partition(": error: ")[2]
+                       for line in done.stderr.splitlines()
+                       if any(line.startswith(f"--set {text}: error: ") for text in sets)]
+        if faults:
+            count = f"{len(faults)} value{'s' if len(faults) > 1 else ''} that no run can have:"
+            self.fail("\n  ".join([count, *faults]), "nothing was computed; correct the file")
+
     def make_plan(self, axes, runs):
+        self.check_values(runs)
         needed = {path for run in runs.values() for path in run.inputs}
         inputs = [i for i in [*self.recipes.values(), *self.made.values()] if i.output in needed]
         return Plan(self.get("title", str, ""), self.case, self.out, self.get("threads", int, 1),

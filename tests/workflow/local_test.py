@@ -16,8 +16,11 @@ skip_without("snakemake")
 with tempfile.TemporaryDirectory() as folder:
     make_case(folder)
 
-    # a run that fails (a speed out of range) is reported and does not stop the others
-    write(f"{folder}/sweep.toml", SWEEP.format(speeds="[0.5, -999.0, 1.0]", seeds=2))
+    # a run that fails (a hull in the ice at the start) is reported and does not stop the others
+    sweep_at = lambda x: (SWEEP.format(speeds="[0.5, 0.8, 1.0]", seeds=2) +
+                          f'[tied."hull.speed"]\n"hull.position" = [[-9.6, 0, 0], [{x}, 0, 0], '
+                          "[-9.6, 0, 0]]\n")
+    write(f"{folder}/sweep.toml", sweep_at(0.0))
     code, text = run_snakemake(folder, "local", "--cores", "2")
     assert code == 1, text
     assert "2 of 6 runs have no result" in text, text
@@ -27,10 +30,10 @@ with tempfile.TemporaryDirectory() as folder:
     xml.fromstring(page.replace("<!DOCTYPE html>", ""))
     assert "4 of 6 runs completed" in page
     assert "Test &lt;sweep&gt;" in page
-    assert "hull.speed = -999" in page.split('id="faults"')[1]
+    assert "overlap by" in page.split('id="faults"')[1]
 
     # mended and longer: only what is missing is computed
-    write(f"{folder}/sweep.toml", SWEEP.format(speeds="[0.5, 0.8, 1.0]", seeds=2))
+    write(f"{folder}/sweep.toml", sweep_at(-9.6))
     code, text = run_snakemake(folder, "local", "--cores", "2")
     assert code == 0, text
     second = summaries(folder)
@@ -41,7 +44,7 @@ with tempfile.TemporaryDirectory() as folder:
     assert code == 0 and "Nothing to be done" in text, text
 
     # a changed setting is a different run
-    longer = SWEEP.format(speeds="[0.5, 0.8, 1.0]", seeds=2).replace("= 2.0", "= 200.0")
+    longer = sweep_at(-9.6).replace("= 2.0", "= 200.0")
     write(f"{folder}/sweep.toml", longer)
     words = snakemake_words(folder, "local", "--cores", "1")
     sweep = subprocess.Popen(words, cwd=folder, text=True, stdout=subprocess.PIPE,
@@ -71,6 +74,12 @@ with tempfile.TemporaryDirectory() as folder:
     code, text = run_snakemake(folder, "local", "--cores", "1")
     assert code == 1 and "did you mean 'hull.speed'?" in text, text
     assert "Traceback" not in text, text
+    assert not os.path.exists(f"{folder}/new")
+    # so does a value that no run can have: no other run begins
+    write(f"{folder}/sweep.toml", SWEEP.format(speeds="[0.5, -999.0]", seeds=1)
+          .replace('out"', 'new"'))
+    code, text = run_snakemake(folder, "local", "--cores", "1")
+    assert code == 1 and "hull.speed = -999 is outside" in text and "Traceback" not in text, text
     assert not os.path.exists(f"{folder}/new")
 
     # a sensitivity study goes the same way to its own page, and is resumed, too

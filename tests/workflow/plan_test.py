@@ -114,6 +114,14 @@ with tempfile.TemporaryDirectory() as folder:
     expect_fault(good + "simulation.duration = [1, 2]\n", "in [set] and in [axes]")
     expect_fault(good + "[tied.hull.speed]\nice.density = [900]\n", "no list of 2 values")
     expect_fault(good + "[tied.ice.density]\nhull.speed = [1, 2]\n", "belongs to no axis")
+    # wrong values, all of them in one message, whichever table they are in
+    expect_fault(good.replace("'2 kn'", "-999.0, '2 knn'").replace(
+        "[set]", "[set]\nice.density = -1.0"), "3 values that no run can have",
+        "ice.density = -1 is outside", "hull.speed = -999 is outside [-50, 50] m/s",
+        '"2 knn" is not a number', "nothing was computed")
+    expect_fault(sheet.replace("seeds = 2", '"level_ice.thickness" = [0.6, -0.6]\nseeds = 2'),
+                 "1 value that", "level_ice.thickness = -0.6 is outside")
+    assert not os.path.exists(f"{folder}/out/inputs/no hull yet")
     expect_fault("[axes", "is no TOML")
     try:
         plan_sweep(f"{folder}/sweep.toml", None, "/none")
