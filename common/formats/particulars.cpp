@@ -19,6 +19,20 @@ std::string release_rule_in_words(const IceParticulars& ice) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
+std::optional<CrackParticulars> mean_cracks(const std::vector<CrackParticulars>& runs) {
+    if (runs.empty()) return std::nullopt;
+    CrackParticulars out;
+    for (auto member : {&CrackParticulars::pieces, &CrackParticulars::radius,
+                        &CrackParticulars::characteristic_length, &CrackParticulars::thickness,
+                        &CrackParticulars::opening_deg, &CrackParticulars::load,
+                        &CrackParticulars::channel_breadth}) {
+        double sum = 0.0;
+        for (const CrackParticulars& run : runs) sum += run.*member;
+        out.*member = sum / static_cast<double>(runs.size());
+    }
+    return out;
+}
+
 bool is_short(double averaged_lengths) {
     // Ship lengths [-]: the least number that two decimals show as 1.00. A text "1.00, less than
     // one" would contradict itself.

@@ -44,7 +44,31 @@ struct IceParticulars {
     double water_density = kUnknown, gravity = kUnknown;  ///< [kg/m3], [m/s2]
     /// [Pa], [Pa], [-]: of level ice that breaks; unknown in other cases
     double flexural_strength = kUnknown, elastic_modulus = kUnknown, poisson_ratio = kUnknown;
+    std::string bending_model = {};    ///< likewise, "wedge" or "kashtelyan"; "" unknown
+    double bending_factor = kUnknown;  ///< likewise, on the breaking load [-]
 };
+
+/// Cracks and channel of a sheet of level ice in 3D: means over all pieces of the run.
+struct CrackParticulars {
+    double pieces = 0.0;                      ///< that broke off, count; of several runs their mean
+    double radius = kUnknown;                 ///< distance of the crack from the load [m]
+    double characteristic_length = kUnknown;  ///< of the ice plate [m]
+    double thickness = kUnknown;              ///< of the sheet [m]
+    double opening_deg = kUnknown;            ///< angle of a piece [deg]
+    double load = kUnknown;                   ///< that breaks a piece off [N]
+    double channel_breadth = kUnknown;        ///< mean over its length [m]
+
+    double per_length() const { return radius / characteristic_length; }
+    double per_thickness() const { return radius / thickness; }
+};
+
+/// Means over runs; none without runs.
+std::optional<CrackParticulars> mean_cracks(const std::vector<CrackParticulars>& runs);
+
+/// Published ranges of both ratios, of ships [-]: as later papers print them, not read in their
+/// sources.
+inline constexpr const char* kCracksPerLength = "0.1 to 0.4";
+inline constexpr const char* kCracksPerThickness = "3 to 10";
 
 /// The release rules in use, "until-hull-contact, never": until when floes are held, which decides
 /// up to half of the resistance. "" where they are not known.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/formats/particulars_json.hpp"
 
+#include <cmath>
 #include <set>
 
 namespace ice {
@@ -73,6 +74,9 @@ void to_json(Json& json, const IceParticulars& i) {
             {"flexural_strength_Pa", i.flexural_strength},
             {"elastic_modulus_Pa", i.elastic_modulus},
             {"poisson_ratio", i.poisson_ratio}};
+    // of level ice that breaks
+    if (!i.bending_model.empty()) json["bending_model"] = i.bending_model;
+    if (std::isfinite(i.bending_factor)) json["bending_factor"] = i.bending_factor;
 }
 
 void from_json(const Json& json, IceParticulars& i) {
@@ -93,6 +97,30 @@ void from_json(const Json& json, IceParticulars& i) {
     take(json, "flexural_strength_Pa", i.flexural_strength);
     take(json, "elastic_modulus_Pa", i.elastic_modulus);
     take(json, "poisson_ratio", i.poisson_ratio);
+    take(json, "bending_model", i.bending_model);
+    take(json, "bending_factor", i.bending_factor);
+}
+
+void to_json(Json& json, const CrackParticulars& c) {
+    json = {{"pieces", c.pieces},
+            {"crack_radius_m", c.radius},
+            {"characteristic_length_m", c.characteristic_length},
+            {"thickness_m", c.thickness},
+            {"crack_radius_per_length", c.per_length()},
+            {"crack_radius_per_thickness", c.per_thickness()},
+            {"opening_deg", c.opening_deg},
+            {"breaking_load_N", c.load},
+            {"channel_breadth_m", c.channel_breadth}};
+}
+
+void from_json(const Json& json, CrackParticulars& c) {
+    take(json, "pieces", c.pieces);
+    take(json, "crack_radius_m", c.radius);
+    take(json, "characteristic_length_m", c.characteristic_length);
+    take(json, "thickness_m", c.thickness);
+    take(json, "opening_deg", c.opening_deg);
+    take(json, "breaking_load_N", c.load);
+    take(json, "channel_breadth_m", c.channel_breadth);
 }
 
 void to_json(Json& json, const TravelParticulars& t) {

@@ -16,6 +16,9 @@ void from_json(const Json& json, ShipParticulars& ship);
 void to_json(Json& json, const IceParticulars& ice);
 void from_json(const Json& json, IceParticulars& ice);
 
+void to_json(Json& json, const CrackParticulars& cracks);
+void from_json(const Json& json, CrackParticulars& cracks);
+
 void to_json(Json& json, const TravelParticulars& travel);
 void from_json(const Json& json, TravelParticulars& travel);
 

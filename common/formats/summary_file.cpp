@@ -200,6 +200,7 @@ std::string summary_text(const Summary& s) {
         {"total", s.floes_total}, {"moved", s.floes_moved}, {"behind", s.floes_behind}};
     json["ship"] = s.ship;
     json["ice"] = s.ice;
+    if (s.cracks) json["level_ice"] = *s.cracks;
     json["travel"] = s.travel;
     json["resistance"] = force_json(s.resistance);
     json["lateral"] = force_json(s.lateral);
@@ -256,6 +257,7 @@ Summary read_summary(const std::filesystem::path& path) {
     s.floes_behind = in.get<std::int64_t>("floes.behind");
     if (in.has("ship")) s.ship = in.get<ShipParticulars>("ship");
     if (in.has("ice")) s.ice = in.get<IceParticulars>("ice");
+    if (in.has("level_ice")) s.cracks = in.get<CrackParticulars>("level_ice");
     if (in.has("travel")) s.travel = in.get<TravelParticulars>("travel");
     s.resistance = read_force(in, "resistance");
     s.lateral = read_force(in, "lateral");

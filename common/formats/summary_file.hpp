@@ -83,6 +83,7 @@ struct Summary {
     double average_from = 0.0;                                        ///< start of the means [s]
     ShipParticulars ship;
     IceParticulars ice;
+    std::optional<CrackParticulars> cracks;  ///< of a sheet in 3D from which pieces broke off
     TravelParticulars travel;
     ForceStatistics resistance, lateral, vertical;
     std::map<std::string, RegionStatistics> regions;
@@ -100,8 +101,11 @@ struct Summary {
     std::map<std::string, double> stage_seconds;  ///< wall time per stage of the step [s]
     std::optional<double> lindqvist_submersion;   ///< [N]; none where the hull has no waterline
     std::vector<FormulaValue> formulas;           ///< of the same ship and ice [N]
-    std::optional<FlowSummary> flow;              ///< none: no flow around the hull
-    std::optional<Ensemble> ensemble;             ///< of an ensemble's folder
+    /// Flexural strength in the formulas [Pa] where it is not that of `ice`; NaN else. Not in the
+    /// file.
+    double formula_strength = std::numeric_limits<double>::quiet_NaN();
+    std::optional<FlowSummary> flow;   ///< none: no flow around the hull
+    std::optional<Ensemble> ensemble;  ///< of an ensemble's folder
     std::vector<Warning> warnings;
     std::string case_file, command_line;
 };

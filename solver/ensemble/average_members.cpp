@@ -123,6 +123,14 @@ void average_counts(const Members& all, Summary& out) {
     out.residual_share = mean_over(all, [](const Summary& s) { return s.residual_share; });
 }
 
+// Cracks of the members in which pieces broke off.
+std::optional<CrackParticulars> average_cracks(const Members& all) {
+    std::vector<CrackParticulars> known;
+    for (const Member& m : all)
+        if (m.summary.cracks) known.push_back(*m.summary.cracks);
+    return mean_cracks(known);
+}
+
 // Ship, ice and travel: one case, but fields of their own.
 void average_particulars(const Members& all, Summary& out) {
     const auto mean = [&](auto particulars, auto member) {
@@ -131,6 +139,7 @@ void average_particulars(const Members& all, Summary& out) {
     for (auto member : {&IceParticulars::thickness, &IceParticulars::floe_size_mean,
                         &IceParticulars::concentration})
         out.ice.*member = mean(&Summary::ice, member);
+    out.cracks = average_cracks(all);
     out.ice.floes = rounded_mean(all, [](const Summary& s) { return s.ice.floes; });
     out.ice.floe_size_min = -largest(all, [](const Summary& s) { return -s.ice.floe_size_min; });
     out.ice.floe_size_max = largest(all, [](const Summary& s) { return s.ice.floe_size_max; });

@@ -56,16 +56,9 @@ std::string describe_strip(const LiveEdge& edge) {
 
 }  // namespace
 
-std::string describe_edge(const LiveEdge& edge) {
-    if (edge.is_strip()) return describe_strip(edge);
-    const IceAreas areas = without_rounding(edge.areas());
+std::optional<CrackParticulars> measure_cracks(const LiveEdge& edge) {
     const auto pieces = edge.pieces();
-    std::string out = fmt::format(
-        "level ice: {} broke off, {:.4g} m2; crushed {:.3g} m2, brash {:.3g} m2; {} far astern "
-        "taken out",
-        pieces_text(edge.broken()), areas.pieces, areas.crushed, areas.brash,
-        pieces_text(edge.retired()));
-    if (pieces.empty()) return out;
+    if (edge.is_strip() || pieces.empty()) return std::nullopt;
     double radius = 0.0, load = 0.0, angle = 0.0;
     Eigen::AlignedBox1d channel;
     for (const IcePiece& piece : pieces) {
@@ -77,17 +70,37 @@ std::string describe_edge(const LiveEdge& edge) {
         for (const Vec2& p : piece.outline) channel.extend(Eigen::Matrix<double, 1, 1>(p.x()));
     }
     const auto count = static_cast<double>(pieces.size());
-    radius /= count;
     // All ice that is gone from the channel, over the length along which pieces broke off: the mean
     // breadth of the channel.
+    const IceAreas areas = without_rounding(edge.areas());
     const double broken = areas.pieces + areas.crushed + areas.brash;
-    return out + fmt::format(
-                     "\nlevel ice: cracks {:.2g} m from the load, {:.2g} characteristic lengths "
-                     "(ships: 0.1 to 0.4), {:.2g} thicknesses (3 to 10); opening {:.0f} degrees; "
-                     "{:.3g} kN each; channel {:.3g} m broad",
-                     radius, radius / edge.length(), radius / edge.thickness(),
-                     angle / count * 180.0 / std::numbers::pi, 1e-3 * load / count,
-                     broken / channel.sizes().x());
+    return CrackParticulars{.pieces = count,
+                            .radius = radius / count,
+                            .characteristic_length = edge.length(),
+                            .thickness = edge.thickness(),
+                            .opening_deg = angle / count * 180.0 / std::numbers::pi,
+                            .load = load / count,
+                            .channel_breadth = broken / channel.sizes().x()};
+}
+
+std::string describe_edge(const LiveEdge& edge) {
+    if (edge.is_strip()) return describe_strip(edge);
+    const IceAreas areas = without_rounding(edge.areas());
+    std::string out = fmt::format(
+        "level ice: {} broke off, {:.4g} m2; crushed {:.3g} m2, brash {:.3g} m2; {} far astern "
+        "taken out",
+        pieces_text(edge.broken()), areas.pieces, areas.crushed, areas.brash,
+        pieces_text(edge.retired()));
+    const auto cracks = measure_cracks(edge);
+    if (!cracks) return out;
+    return out +
+           fmt::format(
+               "\nlevel ice: cracks {:.2g} m from the load, {:.2g} characteristic lengths (ships: "
+               "{}), {:.2g} thicknesses ({}); opening {:.0f} degrees; {:.3g} kN each; channel "
+               "{:.3g} m broad",
+               cracks->radius, cracks->per_length(), kCracksPerLength, cracks->per_thickness(),
+               kCracksPerThickness, cracks->opening_deg, 1e-3 * cracks->load,
+               cracks->channel_breadth);
 }
 
 }  // namespace ice

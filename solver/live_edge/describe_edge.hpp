@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "common/formats/particulars.hpp"
 #include "solver/live_edge/live_edge.hpp"
 
 namespace ice {
@@ -12,6 +14,9 @@ namespace ice {
 ///
 /// Crushed ice and brash below 1e-9 of the sheet are rounding, and 0 (without_rounding()).
 std::string describe_edge(const LiveEdge& edge);
+
+/// Means over the pieces that broke off; none in 2D, and where no piece did.
+std::optional<CrackParticulars> measure_cracks(const LiveEdge& edge);
 
 IceAreas without_rounding(IceAreas areas);
 

@@ -102,6 +102,9 @@ IceParticulars measure_ice(const Scene& scene, const Case& parameters) {
         ice.flexural_strength = parameters.bending.flexural_strength;
         ice.elastic_modulus = parameters.bending.elastic_modulus;
         ice.poisson_ratio = parameters.bending.poisson_ratio;
+        ice.bending_model =
+            parameters.bending.model == BendingModel::wedge ? "wedge" : "kashtelyan";
+        ice.bending_factor = parameters.bending.factor;
     }
     ice.water_density = parameters.water_density;
     ice.gravity = parameters.gravity;

@@ -330,6 +330,7 @@ void Recorder::finish(const StepView& view, Summary& summary) {
     if (view.edge != nullptr) {
         write_pieces(folder_ / kPiecesName, record_edge(*view.edge));
         say(describe_edge(*view.edge));
+        summary.cracks = measure_cracks(*view.edge);
     }
     for (CsvFile& file : csv_files_) file.finish();
     fill_energy(view.ledger, potential_energy(view.scene, parameters_), summary);

@@ -254,10 +254,35 @@ TEST_CASE("ship, ice, travel and formulas come back, rigid ice and unknowns as n
     CHECK(back.ice.floe_size_mean == 6.25);
     CHECK(back.ice.crushing_pressure == 1e6);
     CHECK(back.ice.hold == s.ice.hold);
+    CHECK(back.ice.bending_model.empty());
+    CHECK(std::isnan(back.ice.bending_factor));
+    CHECK_FALSE(back.cracks);
     CHECK(back.travel.averaged_lengths == 1.0);
     REQUIRE(back.formulas.size() == 1);
     CHECK(back.formulas[0].name == "Lindqvist 1989");
     CHECK(back.formulas[0].value == 950.0);
+
+    s.ice.bending_model = "kashtelyan";
+    s.ice.bending_factor = 3.1;
+    s.cracks = CrackParticulars{.pieces = 12.0,
+                                .radius = 2.5,
+                                .characteristic_length = 10.0,
+                                .thickness = 0.5,
+                                .opening_deg = 120.0,
+                                .load = 1e5,
+                                .channel_breadth = 16.0};
+    CHECK_THAT(summary_text(s), Catch::Contains("\"crack_radius_per_length\": 0.25") &&
+                                    Catch::Contains("\"crack_radius_per_thickness\": 5.0"));
+    const Summary bent = written_and_read(s);
+    CHECK(bent.ice.bending_model == "kashtelyan");
+    CHECK(bent.ice.bending_factor == 3.1);
+    REQUIRE(bent.cracks);
+    CHECK(bent.cracks->pieces == 12.0);
+    CHECK(bent.cracks->per_length() == 0.25);
+    CHECK(bent.cracks->per_thickness() == 5.0);
+    CHECK(bent.cracks->opening_deg == 120.0);
+    CHECK(bent.cracks->load == 1e5);
+    CHECK(bent.cracks->channel_breadth == 16.0);
 
     s.ice.crushing_pressure = std::numeric_limits<double>::infinity();
     s.ice.concentration = s.ship.breadth = kUnknown;

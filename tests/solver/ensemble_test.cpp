@@ -53,6 +53,7 @@ TEST_CASE("an ensemble's mean is its members', its interval Student's", "[ensemb
     CHECK(s.steps == 3000);
     CHECK(s.simulated_s == Near(60.0));
     CHECK(s.floes_moved == 2);
+    CHECK_FALSE(s.cracks);
     CHECK(s.energy.at("drag_J") == Near(110.0));
     CHECK(s.regions.at("bow").hits == 9);
     CHECK(s.regions.at("bow").mean[0] == Near(-110.0));
@@ -73,8 +74,14 @@ TEST_CASE("an ensemble's summary has no numbers of one member alone", "[ensemble
         s.ice.floe_size_max = 8.0 + static_cast<double>(k);
         s.ice.concentration = 0.7 + 0.1 * static_cast<double>(k);
         s.ice.floes = 10 + 2 * static_cast<std::int64_t>(k);
+        s.cracks = CrackParticulars{.radius = 2.0 + static_cast<double>(k),
+                                    .characteristic_length = 10.0,
+                                    .thickness = 0.5};
     }
     const Summary s = average_members(members);
+    REQUIRE(s.cracks);
+    CHECK(s.cracks->radius == Near(2.5));
+    CHECK(s.cracks->per_length() == Near(0.25));
     CHECK(s.panels.size == 0.0);
     CHECK(s.panels.hardest.empty());
     CHECK_FALSE(s.regions.at("bow").force_peaks);
@@ -204,9 +211,13 @@ TEST_CASE("the formulas' line compares level ice with totals, broken ice with a 
     s.ice.hold = {"until-bent", "always"};
     CHECK(formulas_line(s) ==
           "formulas for level ice, total: 688.4 to 791.6 kN (Lindqvist 1989, Riska 1997, Jeong "
-          "2010)");
+          "2010); recalled, compared with no published number: Lindqvist 1989, Riska 1997");
     s.formulas = {{"Riska 1997", "total", 688400.0, false}};
-    CHECK(formulas_line(s) == "formulas for level ice, total: 688.4 kN (Riska 1997)");
+    CHECK(formulas_line(s) ==
+          "formulas for level ice, total: 688.4 kN (Riska 1997); recalled, compared with no "
+          "published number: Riska 1997");
+    s.formulas = {{"Jeong 2010", "total", 700000.0, true}};
+    CHECK(formulas_line(s) == "formulas for level ice, total: 700.0 kN (Jeong 2010)");
     s.formulas.clear();
     CHECK(formulas_line(s).empty());
 }

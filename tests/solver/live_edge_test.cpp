@@ -132,6 +132,39 @@ TEST_CASE("a ship breaks its way, ice is neither lost nor made, and no piece is 
     CHECK(deepest < 0.02);
 }
 
+TEST_CASE("the summary has the means of cracks and channel that the console prints",
+          "[live_edge][level_ice][edge]") {
+    const TempFolder folder;
+    World w = make_world(sheet_case(0.8, 4.0));
+    CHECK_FALSE(measure_cracks(w.edge));  // nothing broke off yet
+    const Summary summary = run(w, {folder / "run", "first"});
+    const auto pieces = w.edge.pieces();
+    REQUIRE(pieces.size() > 3);
+    double radius = 0.0;
+    for (const IcePiece& piece : pieces)
+        radius += piece.radius / static_cast<double>(pieces.size());
+    REQUIRE(summary.cracks);
+    CHECK(summary.cracks->pieces == static_cast<double>(pieces.size()));
+    CHECK(summary.cracks->radius == Near(radius));
+    CHECK(summary.cracks->per_length() == Near(radius / w.edge.length()));
+    CHECK(summary.cracks->per_thickness() == Near(radius / w.edge.thickness()));
+    CHECK(summary.cracks->opening_deg > 0.0);
+    // the broken ice over the length along which it broke
+    Eigen::AlignedBox2d broken;
+    for (const IcePiece& piece : pieces)
+        for (const Vec2& p : piece.outline) broken.extend(p);
+    const IceAreas areas = w.edge.areas();
+    CHECK(summary.cracks->channel_breadth * broken.sizes().x() ==
+          Near(areas.pieces + areas.crushed + areas.brash));
+    CHECK_THAT(describe_edge(w.edge),
+               Catch::Contains(fmt::format("{:.2g} characteristic lengths (ships: 0.1 to 0.4), "
+                                           "{:.2g} thicknesses (3 to 10)",
+                                           summary.cracks->per_length(),
+                                           summary.cracks->per_thickness())));
+    CHECK(summary.ice.bending_model == "wedge");
+    CHECK(summary.ice.bending_factor == w.parameters.bending.factor);
+}
+
 TEST_CASE("an area that is the rounding of a sum is described as none", "[live_edge]") {
     const IceAreas rounded = without_rounding({900.0, 80.0, 20.0, -7.11e-15, 0.0});
     CHECK(rounded.brash == 0.0);
