@@ -15,7 +15,7 @@ void evaluate_run(Summary& s, const FormulaOptions& options) {
     // has.
     auto formulas = evaluate_formulas(s.ship, s.ice, s.ship.speed_mean, chosen);
     if (formulas.empty() || !std::isfinite(s.ice.water_density)) return;
-    if (std::isfinite(chosen.flexural_strength)) s.ice.flexural_strength = chosen.flexural_strength;
+    s.formula_strength = chosen.flexural_strength;
     s.formulas = std::move(formulas);
 }
 

@@ -153,20 +153,23 @@ std::string draw_formulas(const Summary& s, const ForceUnit& unit, double width)
     return out + legend + "</svg>\n";
 }
 
+std::string band_verdict(const Summary& s) {
+    const auto compared = comparable_formulas(formulas_of(s), is_level_ice(s.ice));
+    const double mean = s.resistance.mean;
+    const auto band = band_of(compared);
+    if (compared.size() < 2 || !band || !(band->low > 0.0) || !std::isfinite(mean)) return "";
+    const bool below = mean < band->low;
+    if (!below && mean <= band->high) return "The run lies within this band.";
+    const double percent = 100.0 * std::abs(mean / (below ? band->low : band->high) - 1.0);
+    return fmt::format("The run lies {:.{}f} % {} this band.", percent, percent < 9.95 ? 1 : 0,
+                       below ? "below" : "above");
+}
+
 std::string formula_footnote(const std::vector<FormulaValue>& formulas) {
-    std::vector<std::string> names;
-    std::map<std::string, std::string> parts;
-    for (const FormulaValue& f : formulas) {
-        // only formulas that no published number confirmed are named
-        if (f.verified) continue;
-        if (!parts.contains(f.name)) names.push_back(f.name);
-        parts[f.name] += (parts[f.name].empty() ? "" : ", ") + f.part;
-    }
-    if (names.empty()) return "";
-    std::string out = "Recalled, compared with no published number:";
-    for (const std::string& name : names)
-        out += fmt::format("{} {} ({})", name == names.front() ? "" : ";", name, parts[name]);
-    return out + ".";
+    std::string list;
+    for (const auto& [name, parts] : recalled_formulas(formulas))
+        list += fmt::format("{} {} ({})", list.empty() ? "" : ";", name, parts);
+    return list.empty() ? "" : fmt::format("R{}:{}.", kRecalled + 1, list);
 }
 
 std::string formula_section(const Summary& s, const ForceUnit& unit) {
@@ -187,10 +190,17 @@ std::string formula_section(const Summary& s, const ForceUnit& unit) {
         level ? "This run breaks level ice: it is compared with the totals of the formulas."
               : "This run's ice is broken from the start: it is compared with the formulas' parts "
                 "for broken ice. Their breaking part, for level ice, comes on top.";
-    if (std::isfinite(s.ice.flexural_strength))
-        intro +=
-            fmt::format(" Level ice of {} kPa.", views::readable(1e-3 * s.ice.flexural_strength));
-    intro += " " + formula_footnote(formulas);
+    if (const std::string verdict = band_verdict(s); !verdict.empty()) {
+        const FormulaBand band = *band_of(compared);
+        intro += fmt::format(" They span {} to {} {}. {}", unit.text(band.low),
+                             unit.text(band.high), unit.name, verdict);
+    }
+    const double strength =
+        std::isfinite(s.formula_strength) ? s.formula_strength : s.ice.flexural_strength;
+    if (std::isfinite(strength))
+        intro += fmt::format(" Level ice of {} kPa.", views::readable(1e-3 * strength));
+    intro += " " + formula_footnote(formulas) +
+             " For which ships, ice and speeds their sources hold, we have not read.";
     return section(
         "formulas", "Empirical formulas", intro,
         figures({draw_formulas(s, unit, 440.0)}) +

@@ -13,6 +13,10 @@ namespace ice::report {
 /// comparable ones span, a table of all parts, and which of them are recalled. "" without formulas.
 std::string formula_section(const Summary& summary, const ForceUnit& unit);
 
+/// "The run lies 42 % below this band." of the comparable formulas, or within it; "" for fewer than
+/// two of them.
+std::string band_verdict(const Summary& summary);
+
 /// The bars as a drawing of this width [px]: only values comparable with the run. "" without any,
 /// or where nothing is above 0.
 std::string draw_formulas(const Summary& summary, const ForceUnit& unit, double width);

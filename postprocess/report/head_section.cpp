@@ -8,6 +8,7 @@
 #include "common/base/uncertainty.hpp"
 #include "common/base/units.hpp"
 #include "common/formulas/formula_band.hpp"
+#include "postprocess/report/formula_section.hpp"
 #include "postprocess/report/page.hpp"
 #include "postprocess/report/sections.hpp"
 #include "postprocess/report/tables.hpp"
@@ -52,6 +53,17 @@ Rows ship_rows(const Summary& s) {
     return rows;
 }
 
+// of ice that the ship breaks
+void add_bending(Rows& rows, const IceParticulars& ice) {
+    if (std::isfinite(ice.flexural_strength))
+        add(rows, "Flexural strength", readable(1e-3 * ice.flexural_strength) + " kPa");
+    if (std::isfinite(ice.elastic_modulus))
+        add(rows, "Elastic modulus", readable(1e-9 * ice.elastic_modulus) + " GPa");
+    add(rows, "Bending model", ice.bending_model);
+    if (std::isfinite(ice.bending_factor))
+        add(rows, "Factor on the breaking load", readable(ice.bending_factor));
+}
+
 Rows ice_rows(const Summary& s) {
     const IceParticulars& ice = s.ice;
     Rows rows;
@@ -64,7 +76,10 @@ Rows ice_rows(const Summary& s) {
                   : fmt::format("{:.2f} m, {:.2f} to {:.2f} m", ice.floe_size_mean,
                                 ice.floe_size_min, ice.floe_size_max));
     }
-    if (ice.floes > 0) add(rows, "Floes", std::to_string(ice.floes));
+    // of level ice pieces far astern are taken out, and new ones break off
+    if (ice.floes > 0)
+        add(rows, is_level_ice(ice) ? "Floes in the scene at the end" : "Floes",
+            std::to_string(ice.floes));
     if (std::isfinite(ice.concentration))
         add(rows, "Concentration", fmt::format("{:.0f} %", 100.0 * ice.concentration));
     add(rows, "Density", fixed(ice.density, 0, "kg/m³"));
@@ -77,7 +92,29 @@ Rows ice_rows(const Summary& s) {
         add(rows, "Crushing pressure",
             std::isfinite(ice.crushing_pressure) ? readable(1e-6 * ice.crushing_pressure) + " MPa"
                                                  : "none: rigid ice");
+    if (is_level_ice(ice)) add_bending(rows, ice);
     add(rows, "Held", release_rule_in_words(s.ice));
+    return rows;
+}
+
+// The published ranges are the quickest check of a case: cracks far outside them mean a wrong
+// strength, modulus or thickness.
+Rows crack_rows(const Summary& s) {
+    Rows rows;
+    if (!s.cracks) return rows;
+    const CrackParticulars& c = *s.cracks;
+    add(rows, "Pieces that broke off", fmt::format("{:.0f}", c.pieces));
+    add(rows, "Crack to the load", fixed(c.radius, 2, "m"));
+    add(rows, "In characteristic lengths",
+        fmt::format("{:.2f} (ships: {})", c.per_length(), kCracksPerLength));
+    add(rows, "In thicknesses",
+        fmt::format("{:.1f} (ships: {})", c.per_thickness(), kCracksPerThickness));
+    add(rows, "Opening angle", fixed(c.opening_deg, 0, "°"));
+    add(rows, "Load of a crack", fixed(1e-3 * c.load, 0, "kN"));
+    add(rows, "Channel",
+        fixed(c.channel_breadth, 1, "m") + " broad" +
+            (s.ship.breadth > 0.0 ? fmt::format(", {:.2f} B", c.channel_breadth / s.ship.breadth)
+                                  : ""));
     return rows;
 }
 
@@ -150,9 +187,11 @@ std::string key_numbers(const Summary& s, const ForceUnit& unit, double speed) {
         for (const FormulaValue& f : formulas)
             names += (names.empty() ? "" : "; ") + f.name + ", " + part_text(f);
         out += card(unit.text(band.low) + " to " + unit.text(band.high) + " " + unit.name,
-                    "empirical formulas: " + names);
+                    "empirical formulas: " + names + ". " + band_verdict(s));
     }
-    if (!s.ice.hold.empty())
+    if (is_level_ice(s.ice))
+        out += card("level ice, breaks by bending", "release rule: " + release_rule(s.ice));
+    else if (!s.ice.hold.empty())
         out += card(release_rule_in_words(s.ice), "release rule: until when floes are held");
     // resistance times speed; unknown where the speed is
     if (std::isfinite(speed)) {
@@ -170,7 +209,10 @@ std::string key_numbers(const Summary& s, const ForceUnit& unit, double speed) {
 
 std::string particulars_section(const Summary& s, double speed) {
     const std::vector<std::pair<std::string, Rows>> parts{
-        {"Ship", ship_rows(s)}, {"Ice", ice_rows(s)}, {"Run", travel_rows(s, speed)}};
+        {"Ship", ship_rows(s)},
+        {"Ice", ice_rows(s)},
+        {"Cracks, means of all pieces", crack_rows(s)},
+        {"Run", travel_rows(s, speed)}};
     std::string body;
     for (const auto& [heading, rows] : parts)
         if (!rows.empty()) body += "<div>" + column(heading, rows) + "</div>\n";

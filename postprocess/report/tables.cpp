@@ -238,23 +238,30 @@ std::string energy_table(const Summary& s) {
 
 namespace {
 
+// What a share of the mean means for the answer, by the bound of the warnings.
+std::string effect(double share) {
+    return fmt::format("the mean is {}affected (it counts as affected from {:g} % on)",
+                       std::abs(share) > kMatters ? "" : "hardly ", 100.0 * kMatters);
+}
+
 // The count alone does not bound the error: most steps may miss the tolerance by very little.
 std::string unconverged_text(const Summary& s) {
     std::string out = fmt::format("{} of {}", s.unconverged_steps, s.steps);
     // summaries of older programs lack the share
     if (s.unconverged_steps > 0 && std::isfinite(s.residual_share))
-        out += fmt::format(
-            "; the impulses that they lack are {:.2g} % of all (a warning from {:g} % on)",
-            100.0 * s.residual_share, 100.0 * kMatters);
+        out += fmt::format("; the impulses that they lack are {:.2g} % of all: {}",
+                           100.0 * s.residual_share, effect(s.residual_share));
     return out;
 }
 
 std::string overlap_text(const Summary& s) {
     std::string out = readable(1000.0 * s.max_overlap) + " mm";
     const auto work = s.energy.find("ship_work_J"), put_in = s.energy.find("separation_J");
-    if (work != s.energy.end() && put_in != s.energy.end() && work->second != 0.0)
-        out += fmt::format("; opening all overlaps added {:.2g} % of the ship's work",
-                           100.0 * put_in->second / work->second + 0.0);
+    if (work != s.energy.end() && put_in != s.energy.end() && work->second != 0.0) {
+        const double share = put_in->second / work->second + 0.0;
+        out += fmt::format("; opening all overlaps added {:.2g} % of the ship's work: {}",
+                           100.0 * share, effect(share));
+    }
     return out;
 }
 

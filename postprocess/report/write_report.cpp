@@ -40,11 +40,13 @@ constexpr std::size_t kMostCaseText = 200000;
 std::string page_header(const read::RunFolder& run) {
     const std::string status = run.summary ? run.summary->status : "interrupted";
     std::string line = run.data.header.dimension == 2 ? "2D, forces per metre of breadth" : "3D";
+    const bool level = run.summary && is_level_ice(run.summary->ice);
     if (!run.summary && !run.data.history.empty())
         line += fmt::format(", recorded up to {} s", readable(run.data.history.back().time));
     return "<header><div class=\"inner\">\n<h1>" + escape(run.data.header.title) +
            "</h1>\n<span class=\"status" + (status == "completed" ? "" : " bad") + "\">" +
-           escape(status) + "</span>\n<p>Ice resistance of a ship, simulated. " + escape(line) +
+           escape(status) + "</span>\n<p>Ice resistance of a ship" +
+           (level ? " in level ice" : "") + ", simulated. " + escape(line) +
            ".</p>\n</div></header>\n";
 }
 
@@ -53,17 +55,20 @@ std::string steadiness(const ForceStatistics& f, const ForceUnit& unit) {
     // a series too short for an interval has no trend either
     if (!std::isfinite(f.correlation_time)) return "";
     std::string text = fmt::format(
-        " The interval is that of {} independent samples, which the autocorrelation leaves.",
+        " Forces at neighbouring instants are alike, so the averaged time tells as much as {} "
+        "independent values; the interval is theirs.",
         std::lround(f.effective_samples));
     if (std::isfinite(f.trend))
         text += fmt::format(
-            " A straight line through the averaged time changes by {} {}, which is "
-            "{}.",
-            unit.text(f.trend), unit.name,
+            " From the start to the end of the averaged time the resistance {} by {} {} (a "
+            "straight "
+            "line through it): {}.",
+            f.trend < 0.0 ? "falls" : "rises", unit.text(std::abs(f.trend)), unit.name,
             f.trend_significant.value_or(false)
-                ? "more than chance: the resistance is not steady, average later "
-                  "or longer"
-                : "no more than chance");
+                ? "the scatter of the force alone rarely makes so much, so the resistance is not "
+                  "steady; average later or longer"
+                : "the scatter of the force alone often makes as much, so nothing speaks against "
+                  "a steady resistance");
     return text;
 }
 

@@ -21,6 +21,13 @@ bool lists(const List& list, const FormulaValue& f) {
     });
 }
 
+// A formula's dashes are the same for all its parts in a chart.
+std::string dash_of(const Curve& curve, const std::string& name) {
+    for (const FormulaCurve& f : comparable_curves({curve}))
+        if (f.name == name) return f.dash;
+    return kDashes[0];
+}
+
 }  // namespace
 
 std::string author_of(const std::string& name) {
@@ -49,13 +56,32 @@ std::vector<FormulaCurve> component_curves(const Curve& curve) {
     ICE_ASSERT(!curve.points.empty());
     std::vector<FormulaCurve> out;
     const bool level = curve.points.front().level_ice;
-    for (const FormulaValue& f : curve.points.front().formulas)
-        // Buoyancy is a part of every formula for broken ice. In level ice the total has curves of
-        // its own, and these show the resistance if the ice were broken already.
-        if (f.part == "buoyancy" ||
-            (level && (f.part == "submersion" || f.part == "buoyancy + clearing")))
+    for (const FormulaValue& f : curve.points.front().formulas) {
+        // Buoyancy is a part of every formula for broken ice.
+        if (!level && f.part == "buoyancy")
             out.push_back({f.name, f.part, author_of(f.name) + ", " + f.part, "1 2"});
+        // Lindqvist's crushing at the stem and bending are together what others call breaking.
+        if (level && (f.part == "breaking" || f.part == "crushing"))
+            out.push_back(
+                {f.name, f.part,
+                 author_of(f.name) + (f.part == "breaking" ? ", breaking" : ", crushing + bending"),
+                 dash_of(curve, f.name), f.part == "breaking" ? "" : "bending"});
+    }
     return out;
+}
+
+std::vector<FormulaCurve> broken_curves(const Curve& curve) {
+    ICE_ASSERT(!curve.points.empty());
+    std::vector<FormulaCurve> out;
+    if (!curve.points.front().level_ice) return out;
+    for (const FormulaValue& f : comparable_formulas(curve.points.front().formulas, false))
+        out.push_back({f.name, f.part, author_of(f.name) + ", " + f.part, dash_of(curve, f.name)});
+    return out;
+}
+
+double value_at(const Point& point, const FormulaCurve& drawn) {
+    const double value = point.formula(drawn.name, drawn.part);
+    return drawn.plus.empty() ? value : value + point.formula(drawn.name, drawn.plus);
 }
 
 std::optional<FormulaBand> formula_band(const Point& point) {

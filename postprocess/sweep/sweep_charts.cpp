@@ -128,9 +128,7 @@ private:
 };
 
 auto value_of(const FormulaCurve& drawn) {
-    return [drawn](const Point& p) {
-        return Estimate{p.formula(drawn.name, drawn.part), std::nan("")};
-    };
+    return [drawn](const Point& p) { return Estimate{value_at(p, drawn), std::nan("")}; };
 }
 
 // Parts that nothing ever touches are not drawn.
@@ -288,21 +286,57 @@ std::string draw_peaks(const Sweep& sweep, const std::vector<Curve>& curves, dou
     return draw_chart(chart);
 }
 
-std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>& curves,
-                                    const report::ForceUnit& unit, double width) {
-    static const std::vector<std::pair<Part, Style>> kStyles{
+namespace {
+
+using PartStyles = std::vector<std::pair<Part, Style>>;
+
+constexpr const char* kBreakingColor = "#8c564b";
+
+// Level ice has breaking and submersion, which are the parts of the formulas as well; with the
+// regions of the hull a small chart would have a dozen curves, so that those are in the table.
+const PartStyles& styles_of(bool level_ice) {
+    static const PartStyles kBroken{
         {Part::total, {"resistance", views::kBlack, "", 2.4, 'x'}},
         {Part::bow_contact, {"bow", views::kBlue, "", 1.8, 'o'}},
         {Part::sides_contact, {"sides", views::kGreen, "", 1.8, 's'}},
         {Part::bottom_contact, {"bottom", views::kOrange, "", 1.8, '^'}},
         {Part::rest_contact, {"rest", views::kPurple, "", 1.8, 'd'}},
-        {Part::friction, {"friction", "#777777", "6 3", 1.8}},
-        {Part::breaking, {"breaking", "#8c564b", "9 3", 1.8}}};
+        {Part::friction, {"friction", "#777777", "6 3", 1.8}}};
+    static const PartStyles kLevel{
+        {Part::total, {"resistance", views::kBlack, "", 2.4, 'x'}},
+        {Part::breaking, {"breaking", kBreakingColor, "", 2.0, 's'}},
+        {Part::submersion, {"submersion and all else", views::kBlue, "", 2.0, 'o'}}};
+    return level_ice ? kLevel : kBroken;
+}
+
+// The formulas' totals compare with the resistance, their components with single parts, so the band
+// is of the totals alone. In level ice the overview has the totals, and components have the colour
+// of the run's part that they compare with.
+void add_formulas(Plotter& plotter, const Curve& curve, views::Chart& chart) {
+    const bool level = curve.points.front().level_ice;
+    plotter.add_band(chart, curve, level ? "formulas, total" : "formulas");
+    if (!level)
+        for (const FormulaCurve& f : comparable_curves({curve}))
+            plotter.add(chart, curve, {f.legend, views::kBlack, f.dash, 1.8}, value_of(f));
+    for (const FormulaCurve& f : component_curves(curve))
+        plotter.add(chart, curve,
+                    {f.legend, level ? kBreakingColor : views::kBlack, f.dash, level ? 1.6 : 1.2},
+                    value_of(f));
+    for (const FormulaCurve& f : broken_curves(curve))
+        plotter.add(chart, curve, {f.legend, views::kBlue, f.dash, 1.6}, value_of(f));
+}
+
+}  // namespace
+
+std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>& curves,
+                                    const report::ForceUnit& unit, double width) {
     std::vector<std::string> charts;
     if (sweep.x.empty()) return charts;
     Plotter plotter(sweep, curves, unit);
     std::vector<Part> parts;
-    for (const auto& [part, style] : kStyles) parts.push_back(part);
+    for (const Curve& curve : curves)
+        for (const auto& [part, style] : styles_of(curve.points.front().level_ice))
+            parts.push_back(part);
     bool valued = false;
     const std::vector<std::string> names = name_curves(sweep, curves, valued);
     for (std::size_t k = 0; k < curves.size(); ++k) {
@@ -315,17 +349,12 @@ std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>
         chart.height = 380.0;
         chart.y_range = common_range(curves, parts, unit);
         plotter.set_axis(chart);
-        for (const auto& [part, style] : kStyles)
+        // parts without a force have no curve
+        for (const auto& [part, style] : styles_of(curve.points.front().level_ice))
             if (has_force(curve, part))
                 plotter.add(chart, curve, style,
                             [part = part](const Point& p) { return p.part(part); });
-        // Parts without a force have no curve. The formulas' totals compare with the resistance,
-        // their components with single parts, so the band is of the totals alone.
-        plotter.add_band(chart, curve, "formulas");
-        for (const FormulaCurve& f : comparable_curves({curve}))
-            plotter.add(chart, curve, {f.legend, views::kBlack, f.dash, 1.8}, value_of(f));
-        for (const FormulaCurve& f : component_curves(curve))
-            plotter.add(chart, curve, {f.legend, views::kBlack, f.dash, 1.2}, value_of(f));
+        add_formulas(plotter, curve, chart);
         plotter.add_note(chart);
         charts.push_back(draw_chart(chart));
     }

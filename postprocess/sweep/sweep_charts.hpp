@@ -22,9 +22,10 @@ std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
 /// mean resistance; "" as above, or where no peak is known. @param width of the picture [px]
 std::string draw_peaks(const Sweep& sweep, const std::vector<Curve>& curves, double width);
 
-/// One chart per curve, all on the same axes: resistance with intervals, normal forces on bow,
-/// sides, bottom and the rest, and friction in all, which add up to it, Lindqvist's formula. None
-/// without x. @param width of each picture [px]
+/// One chart per curve, all on the same axes: resistance with intervals, and the parts that add up
+/// to it. In broken ice normal forces on bow, sides, bottom and the rest, friction in all, and the
+/// formulas. In level ice breaking and submersion, of the runs and of the formulas, in whose band
+/// the totals are. None without x. @param width of each picture [px]
 std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>& curves,
                                     const report::ForceUnit& unit, double width);
 

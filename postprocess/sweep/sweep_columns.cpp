@@ -65,7 +65,13 @@ std::vector<Column> force_columns(const std::vector<Point>& points, const report
     for (const auto& [part, title] : parts) columns.push_back({title + in, {}});
     columns.push_back({"largest" + in, {}});
     const auto formulas = comparable_curves({{"", points}});
-    for (const FormulaCurve& f : formulas) columns.push_back({f.legend + in, {}});
+    for (const FormulaCurve& f : formulas) {
+        // points in level and in broken ice compare with two parts of one formula
+        const bool alone = std::count_if(formulas.begin(), formulas.end(), [&](const auto& other) {
+                               return other.legend == f.legend;
+                           }) == 1;
+        columns.push_back({f.legend + (alone ? "" : ", " + f.part) + in, {}});
+    }
     for (const Point& point : points) {
         columns.front().cells.push_back(
             with_interval(unit, point.part(Part::total), point.runs.size()));
@@ -84,6 +90,29 @@ std::vector<Column> force_columns(const std::vector<Point>& points, const report
     columns.push_back({"release rule", {}});
     for (const Point& point : points)
         columns.back().cells.push_back(point.hold.empty() ? "-" : point.hold);
+    return columns;
+}
+
+std::vector<Column> crack_columns(const std::vector<Point>& points) {
+    std::vector<Column> columns{
+        {"crack to the load [m]", {}},
+        {fmt::format("crack in characteristic lengths (ships: {})", kCracksPerLength), {}},
+        {fmt::format("crack in thicknesses (ships: {})", kCracksPerThickness), {}},
+        {"opening angle [\u00b0]", {}},
+        {"channel [m]", {}}};
+    const auto add = [&](std::size_t column, double value, int decimals) {
+        columns[column].cells.push_back(
+            std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-");
+    };
+    for (const Point& point : points) {
+        const CrackParticulars c = point.cracks.value_or(CrackParticulars{});
+        add(0, c.radius, 2);
+        add(1, c.per_length(), 2);
+        add(2, c.per_thickness(), 1);
+        add(3, c.opening_deg, 0);
+        add(4, c.channel_breadth, 1);
+    }
+    drop_empty(columns, 0);
     return columns;
 }
 

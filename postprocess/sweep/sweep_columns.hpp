@@ -31,6 +31,10 @@ std::vector<Column> axis_columns(const Sweep& sweep, const std::vector<Point>& p
 std::vector<Column> force_columns(const std::vector<Point>& points, const report::ForceUnit& unit,
                                   std::vector<std::pair<Part, std::string>> parts, bool intervals);
 
+/// Cracks and channel of points in level ice, beside the published ranges; none where no point has
+/// them.
+std::vector<Column> crack_columns(const std::vector<Point>& points);
+
 /// Uses of the ship's work, per metre of travel (share_work.hpp) [N; 2D: N/m] in the unit, without
 /// empty columns. @pre there are points
 std::vector<Column> work_columns(const Sweep& sweep, const std::vector<Point>& points,

@@ -2,11 +2,13 @@
 #include "postprocess/sweep/sweep_head.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "common/formulas/formula_band.hpp"
 #include "postprocess/report/page.hpp"
 #include "postprocess/views/svg.hpp"
 
@@ -46,6 +48,9 @@ public:
         for (const SweepRun& run : sweep.runs) {
             // runs without a summary have no numbers of ship and ice
             if (!run.summary) continue;
+            ++(is_level_ice(run.summary->ice) ? level_ : broken_);
+            if (!run.summary->ice.bending_model.empty())
+                models_.insert(run.summary->ice.bending_model);
             const auto speed = run.settings.find(kSpeedKey);
             if (speed != run.settings.end() && speed->second.number)
                 speeds_.add(*speed->second.number);
@@ -81,17 +86,29 @@ private:
 
     std::string ice() {
         std::string text;
+        if (level_ > 0)
+            text = broken_ == 0
+                       ? "level ice"
+                       : fmt::format("level ice in {} of {} runs", level_, level_ + broken_);
         append(text, "thickness ", "ice.thickness_m", " m");
         append(text, "pieces of ", "ice.floe_size_mean_m", " m on the average");
         append(text, "concentration ", "ice.concentration", " %", 100.0);
         append(text, "density ", "ice.density_kg_per_m3", " kg/m\u00b3");
         append(text, "friction on the ship ", "ice.friction_ship_ice", "");
         append(text, "ice on ice ", "ice.friction_ice_ice", "");
+        if (level_ > 0) append_bending(text);
         const std::size_t before = text.size();
         append(text, "crushing pressure ", "ice.crushing_pressure_Pa", " MPa", 1e-6);
         // no run states a finite pressure
         if (!text.empty() && text.size() == before) text += ", rigid";
         return text;
+    }
+
+    void append_bending(std::string& text) {
+        append(text, "flexural strength ", "ice.flexural_strength_Pa", " kPa", 1e-3);
+        append(text, "elastic modulus ", "ice.elastic_modulus_Pa", " GPa", 1e-9);
+        if (!models_.empty()) text += fmt::format(", bending model {}", fmt::join(models_, ", "));
+        append(text, "factor on the breaking load ", "ice.bending_factor", "");
     }
 
     void append(std::string& text, const char* name, const char* key, const char* unit,
@@ -102,6 +119,8 @@ private:
     }
 
     std::map<std::string, Range> numbers_;
+    std::set<std::string> models_;        // of bending
+    std::size_t level_ = 0, broken_ = 0;  // runs in level ice and others
     Range speeds_;
 };
 

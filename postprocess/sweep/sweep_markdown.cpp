@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "postprocess/sweep/sweep_markdown.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "postprocess/sweep/split_sweep.hpp"
 #include "postprocess/sweep/sweep_charts.hpp"
 #include "postprocess/sweep/sweep_columns.hpp"
@@ -33,6 +36,17 @@ std::string table_text(const std::vector<Column>& columns) {
     return out;
 }
 
+// What "(n = 2, t = 12.7)" means, below the table where it stands.
+std::string footnote(const std::vector<Point>& points) {
+    const bool two = std::any_of(points.begin(), points.end(), [](const Point& p) {
+        return p.runs.size() == 2 && std::isfinite(p.part(Part::total).half);
+    });
+    return two ? "\nn = 2, t = 12.7: a 95 % interval of two runs is 12.7 standard errors of their "
+                 "mean (Student's t), which says little about it; of three runs it is 4.3, of ten "
+                 "2.3.\n"
+               : "";
+}
+
 std::vector<Column> joined(std::vector<Column> columns, const std::vector<Column>& more) {
     columns.insert(columns.end(), more.begin(), more.end());
     return columns;
@@ -56,7 +70,7 @@ std::string tables(const Sweep& sweep) {
                                        {Part::friction, "friction"}},
                                       false);
     const auto work = work_columns(sweep, points, unit);
-    return table_text(joined(joined(axes, {runs}), forces)) +
+    return table_text(joined(joined(axes, {runs}), forces)) + footnote(points) +
            (work.empty() ? "" : "\n" + table_text(joined(axes, work)));
 }
 

@@ -116,6 +116,10 @@ Point make_point(const Sweep& sweep, const std::map<std::string, Setting>& at,
     point.lindqvist = estimate_mean(lindqvist).mean;
     point.formulas = mean_formulas(sweep, rows);
     point.level_ice = is_level_ice(first.ice);
+    std::vector<CrackParticulars> cracks;
+    for (const std::size_t row : rows)
+        if (const auto& known = sweep.runs[row].summary->cracks) cracks.push_back(*known);
+    point.cracks = mean_cracks(cracks);
     return point;
 }
 

@@ -64,8 +64,9 @@ struct Point {
     int dimension;                  ///< 2 or 3
     std::vector<std::size_t> runs;  ///< rows of Sweep::runs
     std::string hold = {};          ///< release rules of the runs, "; " between different ones
-    std::vector<FormulaValue> formulas = {};  ///< means over the runs
-    bool level_ice = false;                   ///< its runs break level ice
+    std::vector<FormulaValue> formulas = {};      ///< means over the runs
+    bool level_ice = false;                       ///< its runs break level ice
+    std::optional<CrackParticulars> cracks = {};  ///< means over the runs that have them
 
     const Estimate& part(Part p) const { return parts[static_cast<std::size_t>(p)]; }
     /// Value of x. @pre the sweep has an x and the point a number there

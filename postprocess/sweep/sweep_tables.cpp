@@ -30,6 +30,8 @@ constexpr Part kParts[] = {Part::total,          Part::bow,
                            Part::rest_contact,   Part::bow_friction,
                            Part::sides_friction, Part::bottom_friction,
                            Part::rest_friction};
+// later columns, at the end: scripts count on the others' places
+constexpr Part kLevelIceParts[] = {Part::breaking, Part::submersion};
 const std::vector<std::pair<Part, std::string>> kColumns{
     {Part::bow, "bow"},         {Part::bow_friction, "bow, friction"},
     {Part::sides, "sides"},     {Part::sides_friction, "sides, friction"},
@@ -118,7 +120,8 @@ std::string link_to_run(const SweepRun& run, const std::string& text,
 std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
                         const report::ForceUnit& unit, const std::filesystem::path& page) {
     const auto axes = axis_columns(sweep, points, true);
-    const auto forces = force_columns(points, unit, kColumns, true);
+    auto forces = force_columns(points, unit, kColumns, true);
+    for (Column& column : crack_columns(points)) forces.push_back(std::move(column));
     std::vector<std::string> names = titles(axes);
     names.push_back("runs");
     for (const Column& column : forces) names.push_back(column.title);
@@ -183,7 +186,12 @@ std::string point_csv(const Sweep& sweep, const std::vector<Point>& points) {
     const auto formulas = formula_columns(points);
     for (const FormulaValue& f : formulas)
         out += "," + csv_text(column_name(f.name + " " + f.part) + in);
-    out += ",hold,affected_%\r\n";
+    out += ",hold,affected_%";
+    for (const Part part : kLevelIceParts)
+        out += fmt::format(",{0}{1},{0}_ci95{1}", part_name(part), in);
+    out +=
+        ",crack_radius_m,crack_radius_per_length,crack_radius_per_thickness,opening_deg,"
+        "channel_breadth_m\r\n";
     for (const Point& point : points) {
         for (const std::string& axis : sweep.axes) out += csv_text(point.at.at(axis).text) + ",";
         out += std::to_string(point.runs.size());
@@ -194,7 +202,15 @@ std::string point_csv(const Sweep& sweep, const std::vector<Point>& points) {
         for (const FormulaValue& f : formulas)
             out += "," + csv_number(point.formula(f.name, f.part));
         out += "," + csv_text(point.hold) + "," +
-               csv_number(affected_percent(warnings_of(sweep, point))) + "\r\n";
+               csv_number(affected_percent(warnings_of(sweep, point)));
+        for (const Part part : kLevelIceParts)
+            out +=
+                "," + csv_number(point.part(part).mean) + "," + csv_number(point.part(part).half);
+        const CrackParticulars c = point.cracks.value_or(CrackParticulars{});
+        for (const double value :
+             {c.radius, c.per_length(), c.per_thickness(), c.opening_deg, c.channel_breadth})
+            out += "," + csv_number(value);
+        out += "\r\n";
     }
     return out;
 }

@@ -39,6 +39,13 @@ std::size_t count_completed(const Sweep& sweep) {
                                                   [](const SweepRun& r) { return r.summary; }));
 }
 
+bool all_level_ice(const Sweep& sweep) {
+    return count_completed(sweep) > 0 &&
+           std::all_of(sweep.runs.begin(), sweep.runs.end(), [](const SweepRun& run) {
+               return !run.summary || is_level_ice(run.summary->ice);
+           });
+}
+
 std::string header(const Sweep& sweep, const std::vector<Sweep>& parts) {
     // The share of completed runs comes first: a curve of half a sweep does not differ from a whole
     // one.
@@ -51,7 +58,8 @@ std::string header(const Sweep& sweep, const std::vector<Sweep>& parts) {
     return "<header><div class=\"inner\">\n<h1>" + escape(sweep.title) +
            "</h1>\n<span class=\"status" + (good == all ? "" : " bad") + "\">" +
            fmt::format("{} of {} runs completed", good, all) + "</span>\n" + affected +
-           "<p>Ice resistance of a ship, simulated: " +
+           "<p>Ice resistance of a ship" + (all_level_ice(sweep) ? " in level ice" : "") +
+           ", simulated: " +
            escape(axes.empty() ? "nothing but the seed varies"
                                : fmt::format("over {}", fmt::join(axes, ", "))) +
            ".</p>\n</div></header>\n";
@@ -84,17 +92,31 @@ std::string region_note(const Sweep& sweep) {
     return out.empty() ? out : out + ".";
 }
 
+// what the parts of the charts add up to
+std::string parts_words(const std::vector<Curve>& curves) {
+    bool level = false, broken = false;
+    for (const Curve& curve : curves) (curve.points.front().level_ice ? level : broken) = true;
+    std::string out;
+    if (level)
+        out +=
+            "In level ice breaking and submersion add up to the resistance: breaking is the force "
+            "of the ice before it breaks off, submersion all else. The formulas' parts (dashed) "
+            "have the colour of the part that they compare with. The table below has the parts by "
+            "place on the hull. ";
+    if (broken)
+        out += std::string(level ? "In broken ice normal" : "Normal") +
+               " forces on bow, sides, bottom and rest, and (dashed) the friction on all of them, "
+               "add up to the resistance. The table below has the friction of each. ";
+    return out;
+}
+
 std::string parts_section(const Sweep& sweep, const std::vector<Curve>& curves,
                           const report::ForceUnit& unit, const std::string& ending) {
     // Drawn up to a bound, listed without one: a sweep over many axes has thousands of
     // combinations.
     std::vector<Curve> drawn = curves;
     if (drawn.size() > kMostPanels) drawn.resize(kMostPanels);
-    std::string intro =
-        "Normal forces on bow, sides, bottom and rest, and (dashed) the friction on all of them, "
-        "add "
-        "up to the resistance. The table below has the friction of each. " +
-        region_note(sweep);
+    std::string intro = parts_words(curves) + region_note(sweep);
     if (drawn.size() < curves.size())
         intro += fmt::format(" The first {} of {} combinations are drawn; the table has all.",
                              drawn.size(), curves.size());

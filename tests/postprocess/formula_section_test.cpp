@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "postprocess/report/evaluate_run.hpp"
+#include "postprocess/report/sections.hpp"
 #include "postprocess/report/write_report.hpp"
 #include "postprocess/sweep/formula_curves.hpp"
 #include "postprocess/sweep/sweep_tables.hpp"
@@ -76,6 +77,10 @@ TEST_CASE("broken ice stands beside submersion and clearing, level ice beside to
     strong.flexural_strength = 1e6;
     evaluate_run(s, strong);
     CHECK_THAT(formula_section(s, unit), Catch::Contains("Level ice of 1000 kPa"));
+    s.ice.flexural_strength = 4.5e5;  // of the run, which a strength for the formulas leaves alone
+    evaluate_run(s, strong);
+    CHECK_THAT(formula_section(s, unit), Catch::Contains("Level ice of 1000 kPa"));
+    CHECK_THAT(particulars_section(s, 1.0), Catch::Contains("450 kPa"));
 }
 
 TEST_CASE("a summary that does not say what formulas need keeps what it has", "[report]") {
@@ -89,6 +94,25 @@ TEST_CASE("a summary that does not say what formulas need keeps what it has", "[
     CHECK(formula_section(s, choose_unit(1.0, 3)).empty());
     CHECK(draw_formulas(s, choose_unit(1.0, 3), 600.0).empty());
     CHECK(formula_footnote({{"A", "total", 1.0, true}}).empty());
+}
+
+TEST_CASE("a run outside the band of the formulas says so, with the percentage", "[report]") {
+    Summary s = *make_folder().summary;
+    CHECK(band_verdict(s).empty());  // one formula is no band
+    s.formulas = {{"A", "total", 250e3, true}, {"B", "total", 360e3, true}};
+    s.ice.hold = {"until-bent"};
+    const std::vector<std::pair<double, std::string>> cases{
+        {145e3, "The run lies 42 % below this band."},
+        {450e3, "The run lies 25 % above this band."},
+        {240e3, "The run lies 4.0 % below this band."},
+        {300e3, "The run lies within this band."}};
+    for (const auto& [mean, verdict] : cases) {
+        s.resistance.mean = mean;
+        CHECK(band_verdict(s) == verdict);
+        CHECK_THAT(formula_section(s, choose_unit(4e5, 3)), Catch::Contains(verdict));
+        CHECK_THAT(key_numbers(s, choose_unit(4e5, 3), 2.0), Catch::Contains(verdict));
+    }
+    CHECK_THAT(formula_section(s, choose_unit(4e5, 3)), Catch::Contains("we have not read"));
 }
 
 TEST_CASE("a sweep's chart has the band of its formulas, its CSV a column for each part",
@@ -111,7 +135,7 @@ TEST_CASE("a sweep's chart has the band of its formulas, its CSV a column for ea
     CHECK(author_of("our ship") == "our ship");
     const std::string csv = point_csv(sweep, points);
     CHECK_THAT(csv, Catch::Contains(",jeong_2010_buoyancy_clearing_N,") &&
-                        Catch::Contains(",600,200,80,280,until-hull-contact,\r\n"));
+                        Catch::Contains(",600,200,80,280,until-hull-contact,,"));
     const std::string chart = make_sweep_curve(sweep);
     CHECK_THAT(chart, Catch::Contains(">formulas</text>") && Catch::Contains(">Jeong</text>"));
     const std::string page = make_sweep_page(sweep, folder / "sweep.html");

@@ -143,6 +143,55 @@ TEST_CASE("the report's head has the half entrance angle and release rules in wo
     CHECK(count(markup_of(html), "never (loose), always (unbroken)") == 2);
 }
 
+TEST_CASE("the report in level ice names its ice, its cracks and its bending", "[report]") {
+    read::RunFolder folder = make_folder();
+    Summary& s = *folder.summary;
+    CHECK_THAT(make_report(folder), !Catch::Contains("Ice resistance of a ship in level ice") &&
+                                        !Catch::Contains("Flexural strength") &&
+                                        !Catch::Contains("in the scene at the end"));
+    s.ice.hold = {"until-bent", "always"};
+    s.ice.floes = 133;
+    s.ice.flexural_strength = 4.5e5;
+    s.ice.elastic_modulus = 5e9;
+    s.ice.bending_model = "wedge";
+    s.ice.bending_factor = 1.5;
+    s.ship.breadth = 14.0;
+    s.cracks = CrackParticulars{.pieces = 235.0,
+                                .radius = 2.8,
+                                .characteristic_length = 10.0,
+                                .thickness = 0.6,
+                                .opening_deg = 134.0,
+                                .load = 1.15e5,
+                                .channel_breadth = 16.1};
+    const std::string html = make_report(folder);
+    for (const char* text :
+         {"Ice resistance of a ship in level ice, simulated", "<b>level ice, breaks by bending</b>",
+          "release rule: until-bent, always", "Floes in the scene at the end", "450 kPa", "5 GPa",
+          "Bending model", "Factor on the breaking load", "Pieces that broke off",
+          "0.28 (ships: 0.1 to 0.4)", "4.7 (ships: 3 to 10)", "134 \u00b0", "115 kN",
+          "16.1 m broad, 1.15 B"}) {
+        CAPTURE(text);
+        CHECK_THAT(html, Catch::Contains(text));
+    }
+}
+
+TEST_CASE("whether the mean is steady is said in words of the force", "[report]") {
+    read::RunFolder folder = make_folder();
+    ForceStatistics& r = folder.summary->resistance;
+    r.correlation_time = 0.2;
+    r.effective_samples = 199.0;
+    r.trend = -22.0;
+    r.trend_significant = false;
+    CHECK_THAT(make_report(folder),
+               Catch::Contains("tells as much as 199 independent values; the interval is theirs") &&
+                   Catch::Contains("the resistance falls by 22 N") &&
+                   Catch::Contains("nothing speaks against a steady resistance"));
+    r.trend = 300.0;
+    r.trend_significant = true;
+    CHECK_THAT(make_report(folder), Catch::Contains("the resistance rises by 300 N") &&
+                                        Catch::Contains("the resistance is not steady"));
+}
+
 TEST_CASE("the counts of the solver stand beside what they mean for the mean", "[report]") {
     Summary s = *make_folder().summary;
     s.steps = 4572;
@@ -153,9 +202,13 @@ TEST_CASE("the counts of the solver stand beside what they mean for the mean", "
     s.residual_share = 0.005;
     s.energy["separation_J"] = 0.0001 * s.energy.at("ship_work_J");
     CHECK_THAT(numerics_table(s),
-               Catch::Contains("3448 of 4572; the impulses that they lack are 0.5 % of all (a "
-                               "warning from 2 % on)<") &&
-                   Catch::Contains("9.5 mm; opening all overlaps added 0.01 % of the ship"));
+               Catch::Contains("3448 of 4572; the impulses that they lack are 0.5 % of all: the "
+                               "mean is hardly affected (it counts as affected from 2 % on)<") &&
+                   Catch::Contains("9.5 mm; opening all overlaps added 0.01 % of the ship") &&
+                   Catch::Contains("s work: the mean is hardly affected"));
+    s.energy["separation_J"] = 0.03 * s.energy.at("ship_work_J");
+    CHECK_THAT(numerics_table(s), Catch::Contains("added 3 % of the ship") &&
+                                      Catch::Contains("s work: the mean is affected (it"));
     s.unconverged_steps = 0;
     CHECK_THAT(numerics_table(s), Catch::Contains("0 of 4572<"));
 }

@@ -6,7 +6,9 @@
 
 #include "postprocess/report/write_report.hpp"
 #include "postprocess/sweep/affected_runs.hpp"
+#include "postprocess/sweep/formula_curves.hpp"
 #include "postprocess/sweep/split_sweep.hpp"
+#include "postprocess/sweep/sweep_charts.hpp"
 #include "postprocess/sweep/sweep_head.hpp"
 #include "postprocess/sweep/sweep_markdown.hpp"
 #include "postprocess/sweep/sweep_points.hpp"
@@ -41,8 +43,9 @@ TEST_CASE("the page of a sweep has curves, small multiples, tables and CSV", "[s
     CHECK_THAT(csv, Catch::StartsWith("contact.friction_ship_ice,hull.speed,runs,resistance_N,"
                                       "resistance_ci95_N,bow_N,"));
     CHECK_THAT(csv, Catch::Contains("\r\n0.1,0.5,3,510,"));
-    CHECK_THAT(csv, Catch::Contains(",hold,affected_%\r\n") &&
-                        Catch::Contains(",until-hull-contact,\r\n"));  // not measured
+    CHECK_THAT(csv, Catch::Contains(",hold,affected_%,breaking_N,breaking_ci95_N,submersion_N,"
+                                    "submersion_ci95_N,crack_radius_m,") &&
+                        Catch::Contains(",until-hull-contact,,,,,,,,,,\r\n"));  // not measured
     CHECK_THAT(page, Catch::Contains("<th scope=\"col\">release rule</th>"));
     CHECK(count(run_csv(sweep), "\r\n") == 13);
     CHECK(encode_address("a b/c=1,2%\u00e4") == "a%20b/c%3D1%2C2%25%C3%A4");
@@ -78,8 +81,8 @@ TEST_CASE("a sweep says how many runs have warnings that affect their mean, and 
     CHECK_THAT(page, Catch::Contains("<th scope=\"col\">Mean affected by [%]</th>") &&
                          Catch::Contains("<td>37</td></tr>"));
     const std::string points = point_csv(sweep, make_points(sweep)), runs = run_csv(sweep);
-    CHECK_THAT(points, Catch::Contains(",until-hull-contact,37\r\n"));
-    CHECK_THAT(points, Catch::EndsWith(",until-hull-contact,0\r\n"));
+    CHECK_THAT(points, Catch::Contains(",until-hull-contact,37,"));
+    CHECK_THAT(points, Catch::EndsWith(",until-hull-contact,0,,,,,,,,,\r\n"));
     CHECK_THAT(runs, Catch::Contains(",remark,affected_%\r\n") && Catch::Contains(",,37\r\n") &&
                          Catch::EndsWith(",,0\r\n"));
 
@@ -105,8 +108,8 @@ TEST_CASE("a point of several runs is affected as much as the worst of them", "[
     sweep.runs[0].summary->warnings = {{"a trend", true, 0.25}};  // of mu = 0.1, u = 0.5
     sweep.runs[1].summary->warnings = {{"a jam", true, 0.5}};
     const std::string csv = point_csv(sweep, make_points(sweep));
-    CHECK(count(csv, ",50\r\n") == 1);
-    CHECK(count(csv, ",0\r\n") == 3);
+    CHECK(count(csv, ",50,,,,,,,,,\r\n") == 1);
+    CHECK(count(csv, ",0,,,,,,,,,\r\n") == 3);
 }
 
 TEST_CASE("of very many warnings the first two hundred are listed", "[sweep]") {
@@ -129,8 +132,98 @@ TEST_CASE("an interval of two runs says so", "[sweep]") {
             write_run(folder / fmt::format("u{}s{}", speed, seed), speed, 0.1, seed,
                       1000.0 * speed + seed);
     const Sweep sweep = read_sweep(folder.path());
-    CHECK_THAT(sweep_markdown(sweep), Catch::Contains("| 502 \u00b1 6 (n = 2, t = 12.7) |"));
+    const std::string text = sweep_markdown(sweep);
+    CHECK_THAT(text, Catch::Contains("| 502 \u00b1 6 (n = 2, t = 12.7) |"));
+    CHECK_THAT(text, Catch::Contains("\n\nn = 2, t = 12.7: a 95 % interval of two runs is 12.7 "
+                                     "standard errors"));
+    write_run(folder / "u0.5s3", 0.5, 0.1, 3, 503.0);
+    write_run(folder / "u1s3", 1.0, 0.1, 3, 1003.0);
+    CHECK_THAT(sweep_markdown(read_sweep(folder.path())), !Catch::Contains("n = 2"));
     CHECK_THAT(make_sweep_curve(sweep), Catch::Contains(">two runs: t = 12.7</text>"));
+}
+
+namespace {
+
+// two speeds in level ice, with parts, formulas and cracks
+void write_level_runs(const TempFolder& folder) {
+    for (const double speed : {1.0, 2.0}) {
+        const auto run = folder / fmt::format("u{}", speed);
+        write_run(run, speed, 0.1, 1, 1000.0 * speed);
+        Summary s = read_summary(run / "summary.json");
+        s.ice.hold = {"until-bent", "always"};
+        s.resistance.breaking_mean = 300.0 * speed;
+        s.resistance.submersion_mean = 700.0 * speed;
+        s.ice.flexural_strength = 4.5e5;
+        s.ice.bending_model = "wedge";
+        s.ice.bending_factor = 1.5;
+        s.cracks = CrackParticulars{.pieces = 235.0,
+                                    .radius = 2.0 * speed,
+                                    .characteristic_length = 8.0,
+                                    .thickness = 0.5,
+                                    .opening_deg = 134.0,
+                                    .load = 1.15e5,
+                                    .channel_breadth = 16.0};
+        s.formulas = {{"Lindqvist 1989", "submersion", 500.0, false},
+                      {"Lindqvist 1989", "crushing", 400.0, false},
+                      {"Lindqvist 1989", "bending", 200.0, false},
+                      {"Lindqvist 1989", "total", 1100.0, false},
+                      {"Riska 1997", "total", 1500.0, false},
+                      {"Jeong 2010", "buoyancy", 150.0, false},
+                      {"Jeong 2010", "clearing", 100.0, false},
+                      {"Jeong 2010", "buoyancy + clearing", 250.0, false},
+                      {"Jeong 2010", "breaking", 1050.0, true},
+                      {"Jeong 2010", "total", 1300.0, true}};
+        write_bytes(run / "summary.json", summary_text(s));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("in level ice the parts' chart has breaking and submersion, the formulas' beside them",
+          "[sweep]") {
+    const TempFolder folder;
+    write_level_runs(folder);
+    const Sweep sweep = read_sweep(folder.path());
+    const auto curves = make_curves(sweep, make_points(sweep));
+    const auto charts = draw_parts(sweep, curves, choose_sweep_unit(curves[0].points), 600.0);
+    REQUIRE(charts.size() == 1);
+    for (const char* legend :
+         {">resistance<", ">breaking<", ">submersion and all else<", ">formulas, total<",
+          ">Lindqvist, crushing + bending<", ">Lindqvist, submersion<", ">Jeong, breaking<",
+          ">Jeong, buoyancy + clearing<"}) {
+        CAPTURE(legend);
+        CHECK(count(charts[0], legend) == 1);
+    }
+    // a dozen curves cannot be read: no regions of the hull, and no total of a formula
+    for (const char* legend :
+         {">bow<", ">friction<", ">Riska<", ">Lindqvist<", ">Jeong, buoyancy<"})
+        CHECK(count(charts[0], legend) == 0);
+    const auto parts = component_curves(curves[0]);
+    REQUIRE(parts.size() == 2);
+    CHECK(value_at(curves[0].points[0], parts[0]) == 600.0);  // crushing and bending
+    CHECK(value_at(curves[0].points[0], parts[1]) == 1050.0);
+}
+
+TEST_CASE("a sweep in level ice says so, and has bending, cracks and channel", "[sweep]") {
+    const TempFolder folder;
+    write_level_runs(folder);
+    const Sweep sweep = read_sweep(folder.path());
+    CHECK_THAT(point_csv(sweep, make_points(sweep)),
+               Catch::Contains(",300,,700,,2,0.25,4,134,16\r\n"));
+    const std::string page = make_sweep_page(sweep, folder / "sweep.html");
+    CHECK_THAT(page, Catch::Contains("crack in characteristic lengths (ships: 0.1 to 0.4)") &&
+                         Catch::Contains("<td>0.50</td><td>8.0</td><td>134</td><td>16.0</td>"));
+    CHECK_THAT(page, Catch::Contains("Ice resistance of a ship in level ice, simulated"));
+    CHECK_THAT(sweep_markdown(sweep), Catch::Contains("| Lindqvist [N] | Riska [N] | Jeong [N] |"));
+    // beside broken ice a formula has two columns, and each names its part
+    write_run(folder / "broken", 1.5, 0.1, 1, 500.0);
+    CHECK_THAT(sweep_markdown(read_sweep(folder.path())),
+               Catch::Contains("| Lindqvist, total [N] | Riska [N] | Jeong, total [N] | Lindqvist, "
+                               "submersion [N] | Jeong, buoyancy + clearing [N] |"));
+    CHECK_THAT(head_facts(sweep), Catch::Contains("level ice, thickness 0.2 m") &&
+                                      Catch::Contains("flexural strength 450 kPa") &&
+                                      Catch::Contains("bending model wedge, factor on the "
+                                                      "breaking load 1.5"));
 }
 
 TEST_CASE("tables show a speed given in knots with six digits, CSV with all", "[sweep]") {
