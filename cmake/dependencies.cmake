@@ -20,6 +20,6 @@ find_package(CGAL 5.5 CONFIG REQUIRED)           # preprocess/clean, repair, sli
 find_package(Boost 1.74 REQUIRED)                # common/base/uncertainty: Student
 find_package(ZLIB REQUIRED)                      # preprocess/load, postprocess/paraview
 find_package(meshoptimizer 0.18 CONFIG REQUIRED) # postprocess/views, solver/flow: large hulls
-find_library(POLYCLIPPING polyclipping REQUIRED) # solver/level_ice; has no CMake configuration
+find_library(POLYCLIPPING polyclipping REQUIRED) # level_ice, views; has no CMake configuration
 find_package(tomlplusplus 3.3 CONFIG REQUIRED)   # common/toml, parts of postprocess
 find_package(HWY 1.0 CONFIG REQUIRED)            # *_simd.cpp

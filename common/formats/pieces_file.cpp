@@ -45,7 +45,7 @@ void write_piece_column(Hdf5File& file, const std::string& name, const std::vect
                         T PieceRow::*member) {
     std::vector<T> values;
     for (const PieceRow& row : rows) values.push_back(row.*member);
-    file.write("/pieces/" + name, values);
+    file.write(name, values);
 }
 
 // Reads pieces.h5; each array is checked against the number of pieces before it is used.
@@ -66,12 +66,16 @@ public:
         out.drift = points("/drift", {1})[0];
         out.pieces = read_piece_rows("/pieces");
         out.rest = read_piece_rows("/rest");
-        read_column("number", out.pieces, &PieceRow::number);
-        read_column("body", out.pieces, &PieceRow::body);
-        read_column("born", out.pieces, &PieceRow::born);
-        read_column("gone", out.pieces, &PieceRow::gone);
-        read_column("load", out.pieces, &PieceRow::load);
-        read_column("radius", out.pieces, &PieceRow::radius);
+        if (file().has("/sheet")) {
+            out.sheet = read_piece_rows("/sheet");
+            read_column("/sheet/gone", out.sheet, &PieceRow::gone);
+        }
+        read_column("/pieces/number", out.pieces, &PieceRow::number);
+        read_column("/pieces/body", out.pieces, &PieceRow::body);
+        read_column("/pieces/born", out.pieces, &PieceRow::born);
+        read_column("/pieces/gone", out.pieces, &PieceRow::gone);
+        read_column("/pieces/load", out.pieces, &PieceRow::load);
+        read_column("/pieces/radius", out.pieces, &PieceRow::radius);
         for (const PieceRow& row : out.pieces)
             // Bodies below first_body are the ship and floes of the case, whose poses nobody may
             // replace.
@@ -87,7 +91,7 @@ private:
     template <class T>
     void read_column(const std::string& name, std::vector<PieceRow>& rows,
                      T PieceRow::*member) const {
-        const auto values = read_as<T>("/pieces/" + name, {rows.size()});
+        const auto values = read_as<T>(name, {rows.size()});
         for (std::size_t k = 0; k < rows.size(); ++k) rows[k].*member = values[k];
     }
 
@@ -202,7 +206,7 @@ void show_in_frame(const PiecesFile& file, std::size_t others, const RunFrame* b
         // Three times of a piece: a part of the sheet, a body of its own in a slot, and gone
         // astern, where it is drawn as it drifts on from its last pose.
         if (frame.time <= row.born)
-            add_in_sheet(row, FloeState::held);
+            add_in_sheet(row, file.sheet.empty() ? FloeState::held : FloeState::absent);
         else if (frame.time <= row.gone)
             floes.add(slots, static_cast<std::size_t>(row.body) - 1);
         else if (before != nullptr)
@@ -213,6 +217,8 @@ void show_in_frame(const PiecesFile& file, std::size_t others, const RunFrame* b
             add_in_sheet(row, FloeState::behind);
     }
     for (const PieceRow& row : file.rest) add_in_sheet(row, FloeState::held);
+    for (const PieceRow& row : file.sheet)
+        add_in_sheet(row, frame.time <= row.gone ? FloeState::held : FloeState::absent);
     // contacts name slots; readers want the pieces
     for (HullContact& contact : frame.hull_contacts) {
         if (contact.floe < file.first_body) continue;
@@ -247,13 +253,15 @@ void write_pieces(const std::filesystem::path& path, const PiecesFile& pieces) {
         file.write_attribute("/", "rest_group", std::int64_t{pieces.rest_group});
         file.write("/drift", pieces.drift.data(), {1, 3});
         write_piece_rows(file, "/pieces", pieces.pieces);
-        write_piece_column(file, "number", pieces.pieces, &PieceRow::number);
-        write_piece_column(file, "body", pieces.pieces, &PieceRow::body);
-        write_piece_column(file, "born", pieces.pieces, &PieceRow::born);
-        write_piece_column(file, "gone", pieces.pieces, &PieceRow::gone);
-        write_piece_column(file, "load", pieces.pieces, &PieceRow::load);
-        write_piece_column(file, "radius", pieces.pieces, &PieceRow::radius);
+        write_piece_column(file, "/pieces/number", pieces.pieces, &PieceRow::number);
+        write_piece_column(file, "/pieces/body", pieces.pieces, &PieceRow::body);
+        write_piece_column(file, "/pieces/born", pieces.pieces, &PieceRow::born);
+        write_piece_column(file, "/pieces/gone", pieces.pieces, &PieceRow::gone);
+        write_piece_column(file, "/pieces/load", pieces.pieces, &PieceRow::load);
+        write_piece_column(file, "/pieces/radius", pieces.pieces, &PieceRow::radius);
         write_piece_rows(file, "/rest", pieces.rest);
+        write_piece_rows(file, "/sheet", pieces.sheet);
+        write_piece_column(file, "/sheet/gone", pieces.sheet, &PieceRow::gone);
         file.close();
     }
     keep_file(part, path);
@@ -283,7 +291,9 @@ void show_pieces(const PiecesFile& file, RunData& run) {
     header.body_born.assign(others, kNever);
     header.body_breaking_load.assign(others, 0.0);
     for (const PieceRow& row : file.pieces) add_floe(header, row, file.piece_group, row.born);
-    for (const PieceRow& row : file.rest) add_floe(header, row, file.rest_group, kNever);
+    header.sheet_group = file.rest_group;
+    for (const auto* rows : {&file.rest, &file.sheet})
+        for (const PieceRow& row : *rows) add_floe(header, row, file.rest_group, kNever);
     for (std::size_t f = 0; f < run.frames.size(); ++f)
         show_in_frame(file, others, f > 0 ? &run.frames[f - 1] : nullptr, run.frames[f]);
 }

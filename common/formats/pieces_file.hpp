@@ -2,13 +2,15 @@
 /// `pieces.h5`: the pieces into which level ice broke during a run, beside run.h5.
 ///
 /// The bodies of run.h5 are slots then: each represents several pieces, one after the other. Layout
-/// (K rows of a group; /pieces: floes by number, /rest: the remaining sheet at the end):
+/// (K rows of a group; /pieces: floes by number, /rest: the remaining sheet at the end, /sheet: its
+/// other parts, so that /rest and /sheet are the sheet at the start):
 ///
 ///     / format, format_version, first_body, piece_group, rest_group
 ///     /drift [3] m/s            of all the ice: a piece in the sheet is at `at` + drift times time
 ///     /pieces/number, body [K]  born, gone [K] s (gone: inf while it is there)
 ///     /pieces/load [K] N, radius [K] m   that broke it off, of its crack
-///     and in both groups: at [K,3] m  centre of mass as it lay   mass [K] kg
+///     /sheet/gone [K] s                 when this part broke off or was crushed
+///     and in all groups: at [K,3] m  centre of mass as it lay   mass [K] kg
 ///     vertex_offset [K+1], vertices [V,3] m about that centre, triangle_offset [K+1], triangles
 #pragma once
 
@@ -21,7 +23,8 @@ namespace ice {
 
 constexpr const char* kPiecesName = "pieces.h5";
 
-/// A piece of level ice. Of the rest only the first three members count.
+/// A piece of level ice. Of the rest only the first three members count, of other parts of the
+/// sheet `gone`, too.
 struct PieceRow {
     TriangleMesh mesh;  ///< about the centre of mass, axes of the world as it lay [m]
     Vec3 at;            ///< centre of mass as it lay, less the drift until then [m]
@@ -38,6 +41,7 @@ struct PiecesFile {
     std::int32_t piece_group = 0, rest_group = 0;  ///< rows of the case's groups
     Vec3 drift = Vec3::Zero();                     ///< [m/s]
     std::vector<PieceRow> pieces, rest;
+    std::vector<PieceRow> sheet;  ///< none in files of before
 };
 
 /// @throws Error (exit code 1) naming the file when it cannot be written
@@ -46,10 +50,12 @@ void write_pieces(const std::filesystem::path& path, const PiecesFile& pieces);
 /// @throws Error (exit code 2) naming file and dataset
 PiecesFile read_pieces(const std::filesystem::path& path);
 
-/// Puts pieces and rest in the place of the slots, as floes of the run: before it breaks off, a
-/// piece lies held in the sheet; after it was taken out of the scene, it drifts on from where it
-/// was last seen, behind. The header gets time and load of the break. Hull contacts with the
-/// sheet's edge go to the first row of the rest.
+/// Puts pieces, rest and other parts of the sheet in the place of the slots, as floes of the run.
+///
+/// Parts of the sheet are there, held, until they are gone, and pieces from then on: before, they
+/// are FloeState::absent, in files without /sheet held in its place. After it was taken out of the
+/// scene, a piece drifts on from where it was last seen, behind. The header gets the sheet's group,
+/// time and load of the break. Hull contacts with the sheet's edge go to the first row of the rest.
 void show_pieces(const PiecesFile& file, RunData& run);
 
 }  // namespace ice

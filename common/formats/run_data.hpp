@@ -36,6 +36,9 @@ struct RunHeader {
     /// In runs in level ice, set where pieces are read: when a floe broke off [s], the load that
     /// broke it off [N]; inf and 0 for floes that did not. Empty in other runs.
     std::vector<double> body_born, body_breaking_load;
+    /// In runs in level ice: the group of its unbroken sheet, whose bodies are parts without a line
+    /// between them; -1 in other runs.
+    std::int32_t sheet_group = -1;
     bool ship_is_free = false;  ///< the ship moves by forces: rows have its motion
     /// Places at which the water's flow is known, from the water's surface above the ship's origin
     /// [m], and its velocity there for a ship at 1 m/s [1]. They do not turn with the ship.
@@ -95,8 +98,9 @@ struct HullContact {
     Vec3 friction_force = Vec3::Zero();  ///< of the floe on the ship [N]
 };
 
-/// State of a floe as seen in a frame.
-enum class FloeState : std::uint8_t { held = 0, moving = 1, behind = 2 };
+/// State of a floe as seen in a frame. Absent are, in level ice, pieces that have not broken off,
+/// and parts of the sheet that have; run.h5 has no such body.
+enum class FloeState : std::uint8_t { held = 0, moving = 1, behind = 2, absent = 3 };
 
 /// Poses of all floes at one instant; arrays of length Nb.
 struct RunFrame {

@@ -119,7 +119,8 @@ std::string python_text(const std::string& text) {
 
 std::string view_script(const std::filesystem::path& folder, const std::string& force_unit) {
     std::string states;
-    for (const FloeState state : {FloeState::held, FloeState::moving, FloeState::behind}) {
+    for (const FloeState state :
+         {FloeState::held, FloeState::moving, FloeState::behind, FloeState::absent}) {
         const views::FloeStyle& style = views::floe_style(state);
         states += fmt::format("(\"{}\", ({}, {}, {})), ", style.meaning, style.color[0],
                               style.color[1], style.color[2]);

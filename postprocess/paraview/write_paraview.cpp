@@ -221,9 +221,12 @@ private:
             run_file_.add(part.name, frame.time, {hull, part.triangles, part.values});
         std::vector<float> corners;
         for (std::size_t b = 0; b < frame.position.size(); ++b) {
-            // Corners are stored turned and moved, in world axes: ParaView has no rigid bodies.
+            // Corners are stored turned and moved, in world axes: ParaView has no rigid bodies. All
+            // frames share the triangles: those of a floe that is not there shrink to a point.
+            const bool absent = frame.state[b] == FloeState::absent;
             const std::vector<float> one =
-                posed(mesh_of(b), frame.position[b], frame.orientation[b].toRotationMatrix());
+                posed(mesh_of(b), frame.position[b],
+                      absent ? Mat3(Mat3::Zero()) : frame.orientation[b].toRotationMatrix());
             corners.insert(corners.end(), one.begin(), one.end());
         }
         run_file_.add("floes", frame.time,

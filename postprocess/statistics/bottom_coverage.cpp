@@ -80,6 +80,7 @@ double covered_share(const Plan& plan, const RunHeader& header, const std::vecto
                      const RunFrame& frame) {
     std::vector<char> covered(plan.height.size(), 0);
     for (std::size_t b = 0; b < frame.position.size(); ++b) {
+        if (frame.state[b] == FloeState::absent) continue;
         const auto shape = static_cast<std::size_t>(header.body_shape[b]);
         const Vec3 offset = frame.position[b] - frame.ship_position;
         // no part of this floe lies below the hull

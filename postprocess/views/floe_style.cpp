@@ -10,8 +10,18 @@ namespace ice::views {
 
 const FloeStyle& floe_style(FloeState state) {
     static const FloeStyle held{{210, 225, 237}, "held"}, moving{{133, 191, 232}, "moving"},
-        behind{{243, 205, 130}, "behind the ship"};
-    return state == FloeState::held ? held : state == FloeState::moving ? moving : behind;
+        behind{{243, 205, 130}, "behind the ship"}, absent{{255, 255, 255}, "not there"};
+    switch (state) {
+        case FloeState::held:
+            return held;
+        case FloeState::moving:
+            return moving;
+        case FloeState::behind:
+            return behind;
+        case FloeState::absent:
+            break;
+    }
+    return absent;
 }
 
 TrailStyle trail_style(std::size_t k) {

@@ -11,6 +11,7 @@
 #include "postprocess/views/depth_map.hpp"
 #include "postprocess/views/floe_style.hpp"
 #include "postprocess/views/hull_drawing.hpp"
+#include "postprocess/views/sheet_drawing.hpp"
 #include "postprocess/views/view_window.hpp"
 
 namespace ice::views {
@@ -45,12 +46,17 @@ struct SceneView::Parts {
     std::vector<std::int32_t> body_shape;
     Eigen::AlignedBox3d hull_box;
     std::unique_ptr<DepthMap> depth;
-    std::string hull;
+    std::unique_ptr<Sheet> sheet;
+    // The hull; of level ice seen from below its wet part, as the sheet hides the dry one.
+    std::string hull, dry_hull;
 
     double nearness_to_hull(const Face& face, const Vec3& at, const Mat3& turn) const;
     std::vector<Item> sort_floes(const RunFrame& frame) const;
     std::string draw_floe(std::size_t body, const RunFrame& frame, bool outlined) const;
     std::string draw_floes(const RunFrame& frame, const std::vector<Trail>& trails) const;
+    std::string draw_ship(const char* part, const std::string& drawn) const;
+    std::string draw_sheet(const RunFrame& frame, bool nearer) const;
+    bool lies_beyond_sheet(std::size_t body, const RunFrame& frame) const;
     std::string draw_frame_axes(const RunFrame& frame) const;
     std::string draw_water() const;
     Vec2 place(const Vec3& offset) const {
@@ -67,7 +73,6 @@ SceneView::SceneView(const RunHeader& header, ViewFrom from, const ViewOptions& 
     s.flat = header.dimension == 2;
     s.projection = projection_of(from);
     s.body_shape = header.body_shape;
-    double floe_size = 0.0;
     for (std::size_t k = 0; k < header.shapes.size(); ++k) {
         const TriangleMesh& mesh = header.shapes[k].mesh;
         // At most 400 triangles for a floe, which is small in the picture. The hull is drawn once,
@@ -76,13 +81,17 @@ SceneView::SceneView(const RunHeader& header, ViewFrom from, const ViewOptions& 
         double radius = 0.0;
         for (const Vec3& v : mesh.vertices) radius = std::max(radius, v.norm());
         s.radius.push_back(radius);
-        if (k > 0) floe_size = std::max(floe_size, radius);
     }
     TriangleMesh hull;
     if (!header.shapes.empty()) hull = header.shapes[0].mesh;
     for (const Vec3& v : hull.vertices) s.hull_box.extend(v);
     if (hull.vertices.empty()) s.hull_box = Eigen::AlignedBox3d(Vec3(-5, -1, -1), Vec3(5, 1, 1));
 
+    s.sheet = std::make_unique<Sheet>(header, s.hull_box, from);
+    double floe_size = 0.0;
+    for (std::size_t b = 0; b < s.body_shape.size(); ++b)
+        if (!s.sheet->has(b))
+            floe_size = std::max(floe_size, s.radius[static_cast<std::size_t>(s.body_shape[b])]);
     s.window = choose_window(s.hull_box, from, floe_size, options.half_breadth, options.waterline);
     const double across = s.window.right - s.window.left, tall = s.window.top - s.window.bottom;
     // of the given width, but not taller than three quarters of that
@@ -95,6 +104,11 @@ SceneView::SceneView(const RunHeader& header, ViewFrom from, const ViewOptions& 
     // it by this map, because a hull reaches from before a floe to behind it and has no single
     // distance.
     s.depth = std::make_unique<DepthMap>(hull, s.projection, 400);
+    if (s.sheet->exists() && s.projection.toward.z() < -1e-6) {
+        const CutMesh cut = cut_mesh(hull, options.waterline);
+        s.dry_hull = draw_hull(cut.above, s.projection, s.scale, options.waterline);
+        hull = cut.below;
+    }
     s.hull = draw_hull(hull, s.projection, s.scale, options.waterline);
 }
 
@@ -104,8 +118,8 @@ SceneView::~SceneView() = default;
 std::string SceneView::define_hull() const {
     return fmt::format(
         "<svg width=\"0\" height=\"0\" style=\"position:absolute\" aria-hidden=\"true\"><defs>"
-        "<g id=\"{}\">\n{}</g></defs></svg>\n",
-        escape(parts_->options.hull_id), parts_->hull);
+        "<g id=\"{0}\">\n{1}</g><g id=\"{0}-dry\">\n{2}</g></defs></svg>\n",
+        escape(parts_->options.hull_id), parts_->hull, parts_->dry_hull);
 }
 
 // > 0 when the face is nearer to the viewer than the hull where both are seen
@@ -125,6 +139,7 @@ double SceneView::Parts::nearness_to_hull(const Face& face, const Vec3& at,
 std::vector<Item> SceneView::Parts::sort_floes(const RunFrame& frame) const {
     std::vector<Item> items;
     for (std::size_t b = 0; b < frame.position.size() && b < body_shape.size(); ++b) {
+        if (frame.state[b] == FloeState::absent || sheet->has(b)) continue;
         const auto shape = static_cast<std::size_t>(body_shape[b]);
         const Vec3 offset = frame.position[b] - frame.ship_position;
         const Vec3 p = projection.apply(offset);
@@ -179,21 +194,45 @@ std::string SceneView::Parts::draw_floe(std::size_t body, const RunFrame& frame,
 std::string SceneView::Parts::draw_floes(const RunFrame& frame,
                                          const std::vector<Trail>& trails) const {
     const auto items = sort_floes(frame);
-    std::string behind, before;
+    std::string beyond, behind, before;
     for (const Item& item : items) {
         const bool outlined = std::any_of(trails.begin(), trails.end(), [&](const Trail& trail) {
             return trail.floe == static_cast<std::int32_t>(item.body) + 1;
         });
-        (item.before_hull ? before : behind) += draw_floe(item.body, frame, outlined);
+        (lies_beyond_sheet(item.body, frame) ? beyond
+         : item.before_hull                  ? before
+                                             : behind) += draw_floe(item.body, frame, outlined);
     }
     const std::string open =
         "<g stroke=\"#51697a\" stroke-width=\".5\" stroke-linejoin=\"round\">\n";
-    std::string ship = options.hull_id.empty()
-                           ? hull
-                           : fmt::format("<use href=\"#{}\"/>\n", escape(options.hull_id));
+    std::string ship = draw_ship("", hull);
     // seen from above the hull would hide the floes under it
     if (from == ViewFrom::top) ship = "<g opacity=\"0.62\">" + ship + "</g>\n";
-    return open + behind + "</g>\n" + ship + open + before + "</g>\n";
+    if (!sheet->exists()) return open + behind + "</g>\n" + ship + open + before + "</g>\n";
+    const std::string dry = dry_hull.empty() ? "" : draw_ship("-dry", dry_hull);
+    return dry + open + beyond + draw_sheet(frame, false) + behind + "</g>\n" + ship + open +
+           before + draw_sheet(frame, true) + "</g>\n";
+}
+
+std::string SceneView::Parts::draw_ship(const char* part, const std::string& drawn) const {
+    return options.hull_id.empty()
+               ? drawn
+               : fmt::format("<use href=\"#{}{}\"/>\n", escape(options.hull_id), part);
+}
+
+// From a side and from ahead the sheet is on both sides of the hull, which its nearer half veils.
+std::string SceneView::Parts::draw_sheet(const RunFrame& frame, bool nearer) const {
+    if (!nearer) return sheet->draw(frame, scale);
+    if (flat || !(from_a_side(from) || from == ViewFrom::front)) return "";
+    return "<g opacity=\".45\">" + sheet->draw(frame, scale) + "</g>\n";
+}
+
+// Seen from above, the floes under the sheet; from below, those on top of it. The sheet hides them,
+// wherever their middles are on the page.
+bool SceneView::Parts::lies_beyond_sheet(std::size_t body, const RunFrame& frame) const {
+    if (!sheet->exists() || std::abs(projection.toward.z()) < 1e-6) return false;
+    const double above = frame.position[body].z() - frame.ship_position.z() - sheet->height(frame);
+    return above * projection.toward.z() < 0.0;
 }
 
 std::string SceneView::Parts::draw_water() const {

@@ -73,14 +73,19 @@ std::vector<Part> parts_of(const cl::PolyTree& tree) {
     return parts;
 }
 
-std::vector<Part> combine(const std::vector<Loop>& sheet, const Loop& crack, cl::ClipType how) {
+std::vector<Part> combine(const std::vector<Loop>& sheet, const std::vector<Loop>& regions,
+                          cl::ClipType how) {
     // ioStrictlySimple: outlines of the result neither cross nor touch themselves
     cl::Clipper clipper(cl::ioStrictlySimple);
     clipper.AddPaths(to_lattice(sheet), cl::ptSubject, true);
-    clipper.AddPath(to_lattice(crack), cl::ptClip, true);
+    clipper.AddPaths(to_lattice(regions), cl::ptClip, true);
     cl::PolyTree tree;
     clipper.Execute(how, tree, cl::pftNonZero, cl::pftNonZero);
     return parts_of(tree);
+}
+
+std::vector<Part> combine(const std::vector<Loop>& sheet, const Loop& crack, cl::ClipType how) {
+    return combine(sheet, std::vector<Loop>{crack}, how);
 }
 
 std::vector<Loop> outer_loops(std::vector<Part> parts) {
@@ -115,6 +120,19 @@ std::vector<Part> opened(Part part) {
         for (Part& cut : combine(loops, loop_of(half), cl::ctIntersection))
             for (Part& whole : opened(std::move(cut))) out.push_back(std::move(whole));
     return out;
+}
+
+// Corners cut off where a loop moves [-], in widths of the strip: notches sharper than 60 degrees
+// are widened square. Larger cuts a spike into the ice there.
+constexpr double kMitre = 2.0;
+
+// Loops moved outwards by `by` [m], as parts with their holes.
+std::vector<Part> moved(const cl::Paths& loops, double by) {
+    cl::ClipperOffset offset(kMitre);
+    offset.AddPaths(loops, cl::jtMiter, cl::etClosedPolygon);
+    cl::PolyTree tree;
+    offset.Execute(tree, by / kLattice);
+    return parts_of(tree);
 }
 
 bool is_too_small(const Loop& loop, double smallest) {
@@ -229,6 +247,22 @@ std::vector<Loop> without(const Loop& loop, const Loop& region) {
     return outer_loops(combine({loop}, region, cl::ctDifference));
 }
 
+std::vector<Loop> parts_without(const std::vector<Loop>& ice, const std::vector<Loop>& regions) {
+    // Half the breadth of a strip that is rounding [m]: far above the lattice, nothing in a
+    // picture. A larger one leaves more of the ice out.
+    constexpr double kHair = 0.5e-3;
+    std::vector<Loop> out;
+    for (Part& part : combine(ice, regions, cl::ctDifference))
+        for (const Part& open : opened(std::move(part)))
+            // inwards and outwards again: thin strips and tails are gone
+            for (const Part& inner : moved({to_lattice(open.outer)}, -kHair))
+                for (const Part& whole : moved({to_lattice(inner.outer)}, kHair))
+                    // outlines that touch themselves become two
+                    for (Part& simple : combine({whole.outer}, Loop{}, cl::ctUnion))
+                        out.push_back(std::move(simple.outer));
+    return out;
+}
+
 Loop joined(const Loop& a, const Loop& b) {
     std::vector<Part> parts = combine({a}, b, cl::ctUnion);
     if (parts.size() != 1 || !parts[0].holes.empty()) return {};
@@ -236,20 +270,13 @@ Loop joined(const Loop& a, const Loop& b) {
 }
 
 std::vector<Loop> shrunk(const Loop& loop, double by, double smallest, double nearest) {
-    // Longest mitre at a hollow corner, in widths of the strip [-]: notches sharper than 60 degrees
-    // are widened square. Larger cuts a spike into the ice there.
-    constexpr double kMitre = 2.0;
-    cl::ClipperOffset offset(kMitre);
-    offset.AddPath(to_lattice(loop), cl::jtMiter, cl::etClosedPolygon);
-    cl::PolyTree tree;
-    offset.Execute(tree, -by / kLattice);
     std::vector<Loop> out;
-    for (const Part& part : parts_of(tree)) {
+    for (const Part& part : moved({to_lattice(loop)}, -by)) {
         cl::Path path = to_lattice(part.outer);
         cl::CleanPolygon(path, nearest / kLattice);
         if (!part.holes.empty() || path.size() < 3) continue;
         // narrow places may cross once corners are gone: there the loop becomes two
-        for (Part& simple : combine({from_lattice(path)}, {}, cl::ctUnion))
+        for (Part& simple : combine({from_lattice(path)}, Loop{}, cl::ctUnion))
             if (!is_too_small(simple.outer, smallest)) out.push_back(std::move(simple.outer));
     }
     return out;

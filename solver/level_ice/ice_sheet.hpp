@@ -76,6 +76,11 @@ Loop on_lattice(const Loop& loop);
 std::vector<Loop> common_part(const Loop& loop, const Loop& region);
 std::vector<Loop> without(const Loop& loop, const Loop& region);
 
+/// The ice within outlines, as loops() gives them, that is in no loop of `regions`: loops without
+/// holes, largest first. Strips of less than 1 mm in breadth are the rounding to the lattice, and
+/// are left out.
+std::vector<Loop> parts_without(const std::vector<Loop>& ice, const std::vector<Loop>& regions);
+
 /// Two loops that share an edge as one; empty where they do not become one without a hole.
 Loop joined(const Loop& a, const Loop& b);
 

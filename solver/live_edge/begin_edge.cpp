@@ -160,11 +160,13 @@ void LiveEdge::begin(Scene& scene, Case& p) {
                         "change hull.draught or level_ice.thickness");
     const double least = kSmallestPiece * thickness_;
     sheet_ = IceSheet(extent_, is_strip_ ? std::sqrt(least) : least);  // as long, 1 m broad
+    const IceSheet whole = sheet_;
     // the hull lies in the sheet from the start: its own place is taken out
     for (const Loop& loop : hull) gone_.crushed += sheet_.take(loop);
     if (is_strip_)  // ice behind the bow has no edge that could be met
         for (const Loop& loop : hull)
             for (const Vec2& corner : loop) drop_behind(corner.x());
+    keep_lost(whole, -kNever);
     piece_group_ = add_group(p, Hold::until_bent);
     tile_group_ = add_group(p, Hold::always);
     add_slots(scene, p);

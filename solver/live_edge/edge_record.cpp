@@ -2,6 +2,7 @@
 #include "solver/live_edge/edge_record.hpp"
 
 #include "preprocess/field/make_prism.hpp"
+#include "preprocess/field/polygon_checks.hpp"
 
 namespace ice {
 
@@ -39,7 +40,15 @@ PiecesFile record_edge(const LiveEdge& edge) {
         row.radius = piece.radius;
         out.pieces.push_back(std::move(row));
     }
-    for (const Loop& loop : edge.rest()) out.rest.push_back(row_of(edge, loop));
+    // The sheet is for pictures: no outline of it may end a run.
+    for (const Loop& loop : edge.rest())
+        if (is_simple(loop)) out.rest.push_back(row_of(edge, loop));
+    for (const IcePiece& part : edge.lost()) {
+        // where the hull was at the start there never was ice
+        if (part.gone < 0.0 || !is_simple(part.outline)) continue;
+        out.sheet.push_back(row_of(edge, part.outline));
+        out.sheet.back().gone = part.gone;
+    }
     return out;
 }
 

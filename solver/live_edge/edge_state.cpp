@@ -58,7 +58,8 @@ void carry_outlines(CheckpointFile& file, const std::string& name, std::vector<R
 void LiveEdge::carry_pieces(CheckpointFile& file) {
     // Pieces that are gone lie in a file of their own: both kinds go through the checkpoint,
     // and reading sets them as if all were still there.
-    std::vector<IcePiece> all = pieces();
+    std::vector<IcePiece> all = pieces(), parts = lost();
+    all.insert(all.end(), parts.begin(), parts.end());
     if (file.reading()) all.clear();
     file.column("edge.piece_number", all, &IcePiece::number);
     file.column("edge.piece_body", all, &IcePiece::body);
@@ -70,8 +71,10 @@ void LiveEdge::carry_pieces(CheckpointFile& file) {
     carry_outlines(file, "edge.piece_outline", all);
     if (!file.reading()) return;
     gone_pieces_ = {};
-    broken_ = static_cast<std::int64_t>(all.size());
-    pieces_ = std::move(all);
+    pieces_.clear();
+    lost_.clear();
+    for (IcePiece& row : all) (row.number > 0 ? pieces_ : lost_).push_back(std::move(row));
+    broken_ = static_cast<std::int64_t>(pieces_.size());
 }
 
 void LiveEdge::carry(CheckpointFile& file) {

@@ -12,9 +12,9 @@
 
 namespace ice {
 
-/// A piece that broke off.
+/// A piece that broke off; or a part of the sheet that is gone, which has time and outline alone.
 struct IcePiece {
-    std::int64_t number;  ///< from 1, in the order of breaking
+    std::int64_t number;  ///< from 1, in the order of breaking; 0: a part of the sheet
     std::int32_t body;    ///< that it is, or was
     double born, gone;    ///< [s]; gone: inf while it is there
     double load;          ///< downwards, that broke it off [N], 2D [N/m]

@@ -165,16 +165,25 @@ std::size_t LiveEdge::free_slot(const Scene& scene, double time, Plan& plan) {
 }
 
 std::vector<Loop> LiveEdge::rest() const {
-    Box box;
-    for (const Loop& loop : sheet_.loops())
-        for (const Vec2& p : loop) box.extend(p);
-    // in parts along x, so that no polygon has all corners of a long sheet
+    std::vector<Loop> gone;
+    std::vector<Box> boxes;
+    for (IcePiece& part : lost()) {
+        Box box;
+        for (const Vec2& p : part.outline) box.extend(p);
+        boxes.push_back(box);
+        gone.push_back(std::move(part.outline));
+    }
+    // in strips along x, so that no polygon has all corners of a long sheet
     std::vector<Loop> out;
     const double step = kRestLength * radius_;
-    for (double x = box.min().x(); x < box.max().x(); x += step)
-        for (Loop& part : sheet_.parts_in(Box(
-                 Vec2(x, box.min().y()), Vec2(std::min(x + step, box.max().x()), box.max().y()))))
-            out.push_back(std::move(part));
+    for (double x = extent_.min().x(); x < extent_.max().x(); x += step) {
+        const Box strip(Vec2(x, extent_.min().y()),
+                        Vec2(std::min(x + step, extent_.max().x()), extent_.max().y()));
+        std::vector<Loop> within;
+        for (std::size_t k = 0; k < gone.size(); ++k)
+            if (strip.intersects(boxes[k])) within.push_back(gone[k]);
+        for (Loop& part : parts_without({loop_of(strip)}, within)) out.push_back(std::move(part));
+    }
     return out;
 }
 

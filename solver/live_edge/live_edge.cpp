@@ -74,9 +74,23 @@ std::int64_t LiveEdge::alive() const {
                          [](const Slot& s) { return s.use == Use::piece; });
 }
 
-std::vector<IcePiece> LiveEdge::pieces() const {
+// Pieces and lost parts of the sheet, from memory and file.
+std::vector<IcePiece> LiveEdge::all_rows() const {
     std::vector<IcePiece> out = pieces_;
+    out.insert(out.end(), lost_.begin(), lost_.end());
     gone_pieces_.read(out);
+    return out;
+}
+
+std::vector<IcePiece> LiveEdge::lost() const {
+    std::vector<IcePiece> out = all_rows();
+    std::erase_if(out, [](const IcePiece& p) { return p.number > 0; });
+    return out;
+}
+
+std::vector<IcePiece> LiveEdge::pieces() const {
+    std::vector<IcePiece> out = all_rows();
+    std::erase_if(out, [](const IcePiece& p) { return p.number == 0; });
     std::sort(out.begin(), out.end(),
               [](const IcePiece& l, const IcePiece& r) { return l.number < r.number; });
     return out;
@@ -84,9 +98,10 @@ std::vector<IcePiece> LiveEdge::pieces() const {
 
 void LiveEdge::keep_gone_in(const std::filesystem::path& folder) {
     // pieces that are gone so far go into the file, too: memory holds those in the scene alone
-    std::vector<IcePiece> all = pieces();
+    std::vector<IcePiece> all = all_rows();
     gone_pieces_.open(folder);
     pieces_.clear();
+    lost_.clear();
     for (IcePiece& piece : all) {
         if (std::isinf(piece.gone))
             pieces_.push_back(std::move(piece));
@@ -150,6 +165,7 @@ bool LiveEdge::is_due(const Scene& scene) const {
 bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
     const std::vector<Loop> hull = hull_in_ice(scene);
     looked_at_ = ship_in_ice(scene);
+    const IceSheet before = sheet_;
     // First the ice that the hull has crushed through, then the cracks: pieces are cut from the
     // sheet that is left.
     bool is_new = crush_through(hull);
@@ -159,6 +175,7 @@ bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
         break_off(crack, hull, plan);
         is_new = true;
     }
+    if (is_new) keep_lost(before, time);
     // without new ice tiles are laid only when the ship has come a cell farther
     if (!is_new && (looked_at_ - laid_at_).norm() < radius_) return false;
     laid_at_ = looked_at_;
@@ -178,6 +195,17 @@ bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
     std::sort(changed_.begin(), changed_.end());
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
     return !changed_.empty();
+}
+
+// For pictures of the sheet as it was. What is left astern is no loss, so it is dropped after this.
+void LiveEdge::keep_lost(const IceSheet& before, double time) {
+    for (Loop& loop : parts_without(before.loops(), sheet_.loops())) {
+        IcePiece part{0, 0, time, time, 0.0, 0.0, Vec2::Zero(), std::move(loop)};
+        if (gone_pieces_.is_open())
+            gone_pieces_.add(part);
+        else
+            lost_.push_back(std::move(part));
+    }
 }
 
 void LiveEdge::drop_behind(double x) {

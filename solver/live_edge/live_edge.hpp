@@ -99,8 +99,13 @@ public:
     double radius() const { return radius_; }
     /// Is it a strip, in 2D?
     bool is_strip() const { return is_strip_; }
-    /// The sheet that is left, in the ice's axes: in strips across it, in loops without holes.
+    /// The sheet that is left, also astern, in the ice's axes: in strips across it, in loops
+    /// without holes.
     std::vector<Loop> rest() const;
+    /// The other parts of the sheet, in the order in which they went: broken off or crushed at
+    /// IcePiece::gone [s], -inf where the hull was at the start. Together with rest() they are the
+    /// sheet. They have an outline in the ice's axes and no body; their number is 0.
+    std::vector<IcePiece> lost() const;
     /// Body of the first slot, and the groups of floes and tiles in the case.
     std::size_t first_body() const { return first_; }
     std::int32_t piece_group() const { return piece_group_; }
@@ -156,6 +161,8 @@ private:
     Eigen::AlignedBox2d reach(const Scene& scene) const;
     std::vector<Eigen::AlignedBox2d> floes_in_ice(const Scene& scene) const;
     bool crush_through(const std::vector<Loop>& hull);
+    std::vector<IcePiece> all_rows() const;
+    void keep_lost(const IceSheet& before, double time);
     void break_off(const Crack& crack, const std::vector<Loop>& hull, Plan& plan);
     void add_piece(const Loop& piece, const Crack& crack, const std::vector<Loop>& hull,
                    Plan& plan);
@@ -185,6 +192,7 @@ private:
     std::vector<Slot> slots_;
     std::vector<Crack> cracks_;
     std::vector<IcePiece> pieces_;  // by number: those in the scene, and gone ones without a file
+    std::vector<IcePiece> lost_;    // only without a file
     std::int64_t broken_ = 0;
     std::uint64_t crack_number_ = 0;                          // of the next crack
     IceAreas gone_;                                           // all but `sheet`

@@ -149,6 +149,21 @@ TEST_CASE("exported corners are position + rotation of the mesh, states and forc
     }
 }
 
+TEST_CASE("a floe that is not there is a point in ParaView", "[paraview]") {
+    const TempFolder folder;
+    RunData run = make_run({.floes = 2, .frames = 2});
+    run.frames[1].state[1] = FloeState::absent;
+    write_paraview(run, folder / "pv", {1});
+    const Hdf5File file(folder / "pv/arrays.h5", Hdf5File::Mode::read);
+    const std::string floes = grid_at(read_bytes(folder / "pv/run.xdmf"), "floes", "0.1");
+    const auto points = array_of<float>(file, floes, "<Geometry");
+    for (std::size_t v = 0; v < 16; ++v) {
+        const float* p = points.data() + 3 * v;
+        const double far = (Vec3(p[0], p[1], p[2]) - run.frames[1].position[v / 8]).norm();
+        CHECK((far < tolerance(1e-5)) == (v >= 8));
+    }
+}
+
 TEST_CASE("forces of a 2D run are named per metre of breadth", "[paraview]") {
     const TempFolder folder;
     write_paraview(make_run({.dimension = 2}), folder / "pv", {40});

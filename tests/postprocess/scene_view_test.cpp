@@ -163,6 +163,71 @@ TEST_CASE("with an id the hull is defined once and referred to", "[views]") {
     CHECK_THAT(view.draw(run.frames[0], {}), Catch::Contains("<use href=\"#h1\"/>"));
 }
 
+namespace {
+
+// A floe below a sheet in two parts, x from 0 to 6 and 6 to 12 m, y from 2 to 5 m.
+RunData sheet_run() {
+    RunData run = make_run({.floes = 3, .frames = 1});
+    RunHeader& header = run.header;
+    header.shapes.push_back(header.shapes[1]);
+    header.shapes[2].mesh = make_box({6.0, 3.0, 0.2});
+    header.body_shape = {1, 2, 2};
+    header.body_group = {0, 1, 1};
+    header.sheet_group = 1;
+    header.tracked.clear();
+    RunFrame& frame = run.frames[0];
+    frame.position = {Vec3(3, 2.5, -0.5), Vec3(3, 3.5, 0), Vec3(9, 3.5, 0)};
+    frame.orientation.assign(3, Eigen::Quaterniond::Identity());
+    frame.state = {FloeState::moving, FloeState::held, FloeState::held};
+    frame.contact_force = {Vec3::UnitX(), Vec3::Zero(), Vec3::Zero()};
+    return run;
+}
+
+// how the sheet's face is filled, from above and below
+std::string sheet_fill(ViewFrom from) {
+    const Projection p = projection_of(from);
+    return "fill=\"" + shade(floe_style(FloeState::held).color, brightness(p.toward, p)) + "\"";
+}
+
+}  // namespace
+
+TEST_CASE("a sheet in parts is one plate without a line between them", "[views][level_ice]") {
+    const auto from = GENERATE(ViewFrom::top, ViewFrom::below, ViewFrom::side);
+    RunData run = sheet_run();
+    const SceneView view(run.header, from, {});
+    const auto corners = [&](const std::string& svg) {
+        const std::size_t fill = svg.find(sheet_fill(from)), begin = svg.rfind("d=\"", fill);
+        REQUIRE(fill != std::string::npos);
+        return svg.substr(begin, fill - begin);
+    };
+    const std::string whole = view.draw(run.frames[0], {});
+    CHECK(tag_fault(whole).empty());
+    // from a side a second one veils what lies behind it
+    CHECK(count(whole, sheet_fill(from)) == (from == ViewFrom::side ? 2 : 1));
+    run.frames[0].state[2] = FloeState::absent;
+    CHECK(corners(view.draw(run.frames[0], {})) != corners(whole));
+    // one large part has the outline of both
+    run.frames[0].state[2] = FloeState::held;
+    run.header.shapes[2].mesh = make_box({12.0, 3.0, 0.2});
+    run.frames[0].position[1] = run.frames[0].position[2] = Vec3(6, 3.5, 0);
+    const SceneView large(run.header, from, {});
+    CHECK(corners(large.draw(run.frames[0], {})).size() == corners(whole).size());
+}
+
+TEST_CASE("a floe under the sheet is hidden from above and shown from below",
+          "[views][level_ice]") {
+    const RunData run = sheet_run();
+    for (const ViewFrom from : {ViewFrom::top, ViewFrom::below}) {
+        const std::string svg = SceneView(run.header, from, {}).draw(run.frames[0], {});
+        CHECK((svg.find(kTouched) < svg.find(sheet_fill(from))) == (from == ViewFrom::top));
+    }
+}
+
+TEST_CASE("a floe that is not there is not drawn", "[views][level_ice]") {
+    CHECK(draw_one(ViewFrom::below, {4.0, 0.0, -0.85}, FloeState::absent).find(kTouched) ==
+          std::string::npos);
+}
+
 TEST_CASE("faces turned to the light are brighter, within 0.68 and 1.06", "[views]") {
     const Projection p = projection_of(ViewFrom::top);
     const double lit = brightness(p.toward, p), dark = brightness(-p.toward, p);

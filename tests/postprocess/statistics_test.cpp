@@ -147,6 +147,8 @@ TEST_CASE("a floe of 1 x 0.8 m under a bottom of 16 m2 covers a twentieth",
     // cells of 8 m / 300 along the floe's edge of 3.6 m: 0.6 % of the hull at most
     CHECK(cover.share[0] == Near(0.05).margin(0.006));
     CHECK(cover.share[1] == Near(0.05 * 0.3 / 0.8).margin(0.006));
+    run.frames[0].state[0] = FloeState::absent;
+    CHECK(measure_bottom_coverage(run, 100).share[0] == 0.0);
 }
 
 TEST_CASE(

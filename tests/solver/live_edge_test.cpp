@@ -301,6 +301,8 @@ TEST_CASE("level ice goes on from a checkpoint, and by any number of threads, wi
         check_same_runs(folder / "whole", folder / "parts", p.track);
         REQUIRE(second.edge.pieces().size() == whole.edge.pieces().size());
         REQUIRE(second.edge.sheet().loops() == whole.edge.sheet().loops());
+        REQUIRE(second.edge.lost().size() == whole.edge.lost().size());
+        REQUIRE(second.edge.rest() == whole.edge.rest());
     }
 }
 
