@@ -7,6 +7,8 @@
 #include "common/base/error.hpp"
 #include "common/cli/picture_file.hpp"
 #include "common/cli/sibling_program.hpp"
+#include "common/formats/pieces_file.hpp"
+#include "solver/live_edge/edge_record.hpp"
 #include "solver/record/recorder.hpp"
 
 namespace ice {
@@ -49,6 +51,8 @@ void draw_start(const World& w, const fs::path& picture) {
     recorder.open(folder.path(), "icesolve --check", w.scene);
     Summary unused;
     recorder.finish({w.scene, w.contacts, w.constraints, w.ledger, 0.0, true}, unused);
+    // the recorder would write it, too, but also report on the pieces that broke
+    if (w.edge.has_sheet()) write_pieces(folder.path() / kPiecesName, record_edge(w.edge));
     const auto code = run_sibling("icepost", {"-q", "view", folder.path().string(), "--time", "0",
                                               "--from", "side", "-o", picture.string()});
     if (code != 0)

@@ -73,14 +73,22 @@ TEST_CASE("level ice breaks where it is loaded, and another seed is other ice",
     const PiecesFile pieces = read_pieces(w / "run" / kPiecesName);
     CHECK(static_cast<std::int64_t>(pieces.pieces.size()) == s.floes_total);
     const RunData run = read_run(w / "run" / "run.h5");
-    REQUIRE(run.header.body_shape.size() == pieces.pieces.size() + pieces.rest.size());
+    REQUIRE(run.header.body_shape.size() ==
+            pieces.pieces.size() + pieces.rest.size() + pieces.sheet.size());
     for (std::size_t k = 0; k < pieces.pieces.size(); ++k) {
         const PieceRow& row = pieces.pieces[k];
         CHECK(row.load > 0.0);
         CHECK((run.frames.front().position[k] - row.at).norm() < tolerance(1e-3));
-        CHECK(run.frames.front().state[k] == FloeState::held);
-        CHECK(run.frames.back().state[k] != FloeState::held);
+        CHECK(run.frames.front().state[k] == FloeState::absent);
+        CHECK(run.frames.back().state[k] ==
+              (row.gone < 8.0 ? FloeState::behind : run.frames.back().state[k]));
+        CHECK(run.frames.back().state[k] < FloeState::absent);
     }
+    // at the start the sheet is whole, less the ship's own place
+    double mass = 0.0;
+    for (const auto* rows : {&pieces.rest, &pieces.sheet})
+        for (const PieceRow& row : *rows) mass += row.mass;
+    CHECK(mass == Near(12.0 * 16.0 * 0.3 * 900.0).epsilon(0.002));
     const Result again = w.run("icesolve case.cfg --out again --threads 1 --verify");
     CAPTURE(again.err);
     REQUIRE(again.code == 0);
@@ -89,6 +97,33 @@ TEST_CASE("level ice breaks where it is loaded, and another seed is other ice",
     const Result other = w.run("icesolve case.cfg --out other --no-report --set level_ice.seed=1");
     REQUIRE(other.code == 0);
     CHECK(read_summary(w / "other" / "summary.json").state_hash != s.state_hash);
+}
+
+TEST_CASE("the picture of the start has the whole sheet", "[cli][level_ice]") {
+    const Workshop w;
+    prepare(w);
+    const Result r = w.run("icesolve case.cfg --check --picture start.svg");
+    CAPTURE(r.err);
+    REQUIRE(r.code == 0);
+    CHECK(r.err.find("pieces broke off") == std::string::npos);
+    const std::string svg = slurp(w / "start.svg");
+    // the plate and, over the ship, its veil
+    const std::string fill = "fill=\"#d2e1ed\"";
+    const std::size_t at = svg.find(fill);
+    REQUIRE(at != std::string::npos);
+    CHECK(svg.find("<g opacity=\".45\"><path", at) != std::string::npos);
+    // The path of the plate: relative steps between its corners [px]. 12 m of some 50 are seen; a
+    // tile would be 2 m long.
+    const char* step = svg.c_str() + svg.find('l', svg.rfind("d=\"M", at)) + 1;
+    double x = 0.0, low = 0.0, high = 0.0;
+    for (char* end = nullptr; *step != 'z' && *step != '"'; step = end) {
+        x += std::strtod(step, &end);
+        std::strtod(end, &end);
+        low = std::min(low, x);
+        high = std::max(high, x);
+        REQUIRE(end != step);
+    }
+    CHECK(high - low > 100.0);
 }
 
 TEST_CASE("level ice that cannot be is refused with its key", "[cli][level_ice][errors]") {
