@@ -122,30 +122,44 @@ std::string draw_opening(const RunData& run, const std::vector<std::size_t>& ins
     return picture.size() > most ? "" : picture;
 }
 
-// The pictures of each instant. The page's limit in bytes bounds their number.
+// The pictures of each instant and the hulls to which they refer. The page's limit in bytes bounds
+// their number.
 struct Pictures {
-    std::vector<std::vector<std::string>> at;
+    std::vector<std::vector<std::string>> at;  // [instants x views]; empty: left out
+    std::string hulls;
     std::size_t dropped = 0;
 };
+
+// Views that are drawn in any case, at the last instant: a section without a picture says nothing.
+constexpr std::size_t kAlways = 2;
 
 Pictures draw_instants(const RunData& run, const std::vector<SceneView>& views,
                        const std::vector<std::size_t>& instants,
                        const std::vector<views::Trail>& trails, std::size_t used,
                        std::size_t budget) {
     Pictures out;
-    out.at.resize(instants.size());
+    out.at.assign(instants.size(), std::vector<std::string>(views.size()));
+    std::vector<char> defined(views.size(), 0);
+    const auto draw = [&](std::size_t k, std::size_t v, bool always) {
+        if (!out.at[k][v].empty()) return;
+        std::string picture = views[v].draw(run.frames[instants[k]], trails);
+        const std::string hull = defined[v] ? "" : views[v].define_hull();
+        // a smaller picture may still fit, so the search continues
+        if (!always && used + picture.size() + hull.size() > budget) {
+            ++out.dropped;
+            return;
+        }
+        used += picture.size() + hull.size();
+        defined[v] = 1;
+        out.hulls += hull;
+        out.at[k][v] = std::move(picture);
+    };
+    for (std::size_t v = 0; v < std::min(kAlways, views.size()); ++v)
+        draw(instants.size() - 1, v, true);
     // every side at one instant first: the other instants are the first to be left out
     for (const std::size_t k : middle_first(instants.size()))
-        for (const SceneView& view : views) {
-            std::string picture = view.draw(run.frames[instants[k]], trails);
-            // a smaller picture may still fit, so the search continues
-            if (used + picture.size() > budget) {
-                ++out.dropped;
-                continue;
-            }
-            used += picture.size();
-            out.at[k].push_back(std::move(picture));
-        }
+        for (std::size_t v = 0; v < views.size(); ++v) draw(k, v, false);
+    for (auto& group : out.at) std::erase(group, "");
     return out;
 }
 
@@ -182,16 +196,14 @@ std::string scene_section(const RunData& run, std::size_t budget) {
     const std::string opening = flat ? "" : draw_opening(run, instants, trails, budget / 3);
     // each view defines the hull once and its pictures refer to it, which keeps the page small
     std::vector<SceneView> views;
-    std::string hulls;
     for (std::size_t v = 0; v < sides.size(); ++v) {
         views::ViewOptions options = view_options(run);
         options.hull_id = fmt::format("hull-{}", v);
         views.emplace_back(run.header, sides[v], options);
-        hulls += views.back().define_hull();
     }
-    const Pictures pictures =
-        draw_instants(run, views, instants, trails, opening.size() + hulls.size(), budget);
-    std::string body = hulls + "<div class=\"legend\">" + views::draw_legend(640.0) + "</div>\n";
+    const Pictures pictures = draw_instants(run, views, instants, trails, opening.size(), budget);
+    std::string body =
+        pictures.hulls + "<div class=\"legend\">" + views::draw_legend(640.0) + "</div>\n";
     if (!opening.empty()) body += "<div class=\"opening\">" + opening + "</div>\n";
     body += arrange(run, instants, pictures);
     if (pictures.dropped > 0)

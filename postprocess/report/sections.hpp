@@ -23,7 +23,8 @@ std::string particulars_section(const Summary& summary, double speed);
 /// Views of hull and ice at several instants spread over the run: in 3D from below, above,
 /// starboard and ahead; in 2D from the side. "" for a run without frames.
 /// @param budget [bytes]; when a field is so large that the views need more, the last ones in this
-///        order are left out and the section says so
+///        order are left out and the section says so. Those from below and above at the last
+///        instant are there in any case
 std::string scene_section(const RunData& run, std::size_t budget);
 
 /// One chart of histories, 480 x 240 px: averages bold, samples thin and cut where they leave the

@@ -450,3 +450,16 @@ TEST_CASE("a view of one instant is a picture with a legend, without frames an e
     CHECK_THAT(error_text([&] { draw_view(none, views::ViewFrom::below, 0.0); }),
                Catch::Contains("no frames"));
 }
+
+TEST_CASE("a page without room still has the last instant from below and above", "[report]") {
+    const RunData run = make_run();
+    const std::string section = scene_section(run, 0);
+    CHECK_THAT(section, Catch::Contains("From below, t = 4.40 s") &&
+                            Catch::Contains("From above, t = 4.40 s") &&
+                            Catch::Contains("14 more views would make this page too large"));
+    CHECK(count(section, "<h3>") == 1);
+    // hulls of these two views alone
+    CHECK(count(section, "<defs>") == 2);
+    CHECK_THAT(scene_section(make_run({.dimension = 2}), 0),
+               Catch::Contains("From starboard, t = 4.40 s"));
+}
