@@ -112,16 +112,31 @@ private:
         std::vector<float> vertices;
         std::vector<std::uint32_t> triangles;
         meta_["shapes"] = json::array();
+        std::vector<char> in_sheet(run_.header.shapes.size(), 0);
+        std::vector<Vec3> shift(run_.header.shapes.size(), Vec3::Zero());
+        for (std::size_t b = 0; b < run_.header.body_shape.size(); ++b)
+            if (const auto s = static_cast<std::size_t>(run_.header.body_shape[b]); is_sheet(b)) {
+                in_sheet[s] = 1;
+                if (!chosen_.empty()) {
+                    const auto& position = run_.frames[chosen_.front()].position;
+                    shift[s] = position[b] - position[placed_as(b)];
+                }
+            }
         for (std::size_t s = 0; s < run_.header.shapes.size(); ++s) {
             // the hull is packed with its load map
             const TriangleMesh mesh =
-                s == 0 ? TriangleMesh{}
-                       : views::simplify_mesh(run_.header.shapes[s].mesh, kFloeTriangles);
+                s == 0
+                    ? TriangleMesh{}
+                    : views::simplify_mesh(run_.header.shapes[s].mesh,
+                                           // parts of a sheet leave no gap between them
+                                           in_sheet[s] ? run_.header.shapes[s].mesh.triangles.size()
+                                                       : kFloeTriangles);
             meta_["shapes"].push_back({{"first_vertex", vertices.size() / 3},
                                        {"first_triangle", triangles.size() / 3},
                                        {"triangles", mesh.triangles.size()}});
             for (const Vec3& v : mesh.vertices) {
-                for (int d = 0; d < 3; ++d) vertices.push_back(static_cast<float>(v[d]));
+                for (int d = 0; d < 3; ++d)
+                    vertices.push_back(static_cast<float>(v[d] + shift[s][d]));
                 if (s > 0) floe_size_ = std::max(floe_size_, v.norm());
             }
             for (const auto& t : mesh.triangles)
@@ -152,7 +167,7 @@ private:
             offset.push_back(axis.offset);
             for (std::size_t b = 0; b < floes; ++b)
                 for (const std::size_t f : chosen_)
-                    codes.push_back(axis.code(run_.frames[f].position[b][d]));
+                    codes.push_back(axis.code(run_.frames[f].position[placed_as(b)][d]));
         }
         meta_["position"] = {{"scale", scale}, {"offset", offset}};
         // places change smoothly: differences of differences are small
@@ -212,8 +227,22 @@ private:
         pack_.add_series("load", std::move(codes), rows(), 0);
     }
 
-    // Of level ice: the time at which each floe broke off [s], < 0: never, and the load that broke
-    // it as a share of the scale's end [-].
+    bool is_sheet(std::size_t body) const {
+        return run_.header.sheet_group >= 0 &&
+               run_.header.body_group[body] == run_.header.sheet_group;
+    }
+
+    // All parts of a sheet are placed as its first one, and their corners are relative to that: the
+    // rounding of places leaves no gap between them.
+    std::size_t placed_as(std::size_t body) const {
+        if (!is_sheet(body)) return body;
+        const auto& group = run_.header.body_group;
+        return static_cast<std::size_t>(
+            std::find(group.begin(), group.end(), run_.header.sheet_group) - group.begin());
+    }
+
+    // Of level ice: the time at which each floe broke off [s], -1: never, -2: a part of the sheet;
+    // and the load that broke it as a share of the scale's end [-].
     void add_pieces() {
         std::vector<float> born, load;
         // colours by age and by the load that broke each piece, relative to the ends of their
@@ -236,8 +265,12 @@ private:
                                 {{"scale_text", views::readable(end / unit.newtons)},
                                  {"half_text", views::readable(0.5 * end / unit.newtons)},
                                  {"unit", unit.name}}}};
-            for (const double time : run_.header.body_born)
-                born.push_back(std::isfinite(time) ? static_cast<float>(time) : -1.0F);
+            for (std::size_t b = 0; b < loads.size(); ++b) {
+                const double time = run_.header.body_born[b];
+                born.push_back(is_sheet(b)           ? -2.0F
+                               : std::isfinite(time) ? static_cast<float>(time)
+                                                     : -1.0F);
+            }
             for (const double x : loads) load.push_back(static_cast<float>(x / end));
         }
         pack_.add("piece_born", born);

@@ -36,6 +36,8 @@ ice::Summary make_summary(const ice::RunData& run) {
 ice::PiecesFile make_pieces(ice::RunData& run) {
     ice::PiecesFile file;
     file.first_body = 5;
+    file.piece_group = 1;
+    file.rest_group = 2;
     for (std::size_t k = 0; k < 2; ++k) {
         run.header.shapes.push_back(run.header.shapes[1]);
         run.header.body_shape[4 + k] = static_cast<std::int32_t>(2 + k);
@@ -47,6 +49,8 @@ ice::PiecesFile make_pieces(ice::RunData& run) {
         row.load = 1e4 + 1e4 * static_cast<double>(k);
         file.pieces.push_back(row);
     }
+    file.sheet = file.pieces;
+    for (ice::PieceRow& part : file.sheet) part.gone = part.born;
     file.rest = {{run.header.shapes[1].mesh, ice::Vec3(13.0, 0.0, -0.08), 144.0}};
     return file;
 }

@@ -170,8 +170,12 @@ def floe_colours(page):
 
 def check_pieces(page):
     """Two pieces break off, at 1 and 2 s by 10 and 20 kN; the other floes stay unbroken ice."""
-    assert page.js("return icepost.run.meta.floes") == 7, "four floes, two pieces and the rest"
-    assert page.js("return [...icepost.run.arrays.piece_born]") == [-1, -1, -1, -1, 1, 2, -1]
+    assert page.js("return icepost.run.meta.floes") == 9, "four floes, two pieces, the sheet"
+    born = page.js("return [...icepost.run.arrays.piece_born]")
+    assert born == [-1, -1, -1, -1, 1, 2, -2, -2, -2], born
+    assert page.js("return icepost.playback.time == icepost.playback.last"), "opens at its end"
+    assert page.find('[name="ice"]').get_attribute("value") == "age"
+    assert "just now" in page.find(".legend3d").text, "the colours' ends in words"
     assert page.js("return icepost.run.meta.pieces.load.scale_text") == "10"
     select = Select(page.find('[name="ice"]'))
     assert len(select.options) == 4, [o.text for o in select.options]

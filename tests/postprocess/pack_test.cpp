@@ -9,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <limits>
 #include <random>
 
 #include "postprocess/report/viewer_data.hpp"
@@ -116,6 +117,45 @@ TEST_CASE("the page's poses, states and loads are those of the run to the promis
             REQUIRE(root * root * meta["load"]["max"].get<double>() ==
                     Near(force).margin(0.001 * 317));
         }
+}
+
+TEST_CASE("parts of a sheet have one place, and corners relative to it", "[report][level_ice]") {
+    RunData run = make_run({.floes = 3, .frames = 2});
+    RunHeader& header = run.header;
+    header.shapes.push_back(header.shapes[1]);
+    header.shapes.push_back(header.shapes[1]);
+    header.body_shape = {1, 2, 3};
+    header.body_group = {0, 1, 1};
+    header.sheet_group = 1;
+    header.body_born = {0.05, std::numeric_limits<double>::infinity(),
+                        std::numeric_limits<double>::infinity()};
+    header.body_breaking_load = {100.0, 0.0, 0.0};
+    for (RunFrame& frame : run.frames) {
+        frame.position[1] = Vec3(20.0, 0.0, 0.0);
+        frame.position[2] = Vec3(23.3333, 1.0, 0.0);
+        frame.state[2] = FloeState::absent;
+    }
+    RunFigures figures;
+    figures.load = statistics::make_load_map(run, 0.0);
+    const ViewerData page = make_viewer_data(run, figures, 400);
+    const auto meta = nlohmann::json::parse(page.meta);
+    const std::string bytes = unpack(page.arrays);
+    const auto position = read_series(bytes, meta["arrays"]["position"]);
+    for (std::size_t d = 0; d < 3; ++d)
+        CHECK(position[2 + 6 * d] == position[4 + 6 * d]);  // of bodies 2 and 3
+    const auto floats = [&](const char* name) {
+        std::vector<float> out(meta["arrays"][name]["count"].get<std::size_t>());
+        std::memcpy(out.data(), bytes.data() + meta["arrays"][name]["offset"].get<std::size_t>(),
+                    sizeof(float) * out.size());
+        return out;
+    };
+    const auto corner = floats("shape_vertices");
+    const auto first = [&](std::size_t shape) {
+        return 3 * meta["shapes"][shape]["first_vertex"].get<std::size_t>();
+    };
+    CHECK(corner[first(3)] - corner[first(2)] == Near(3.3333).margin(1e-5));
+    CHECK(floats("piece_born") == std::vector<float>{0.05F, -2.0F, -2.0F});
+    CHECK((read_series(bytes, meta["arrays"]["load"])[4] & 3) == 3);
 }
 
 TEST_CASE("thinned series keep every peak and their time's ends", "[statistics][property]") {

@@ -27,15 +27,16 @@ function swatches(items) {
 }
 
 /** Colours are linear; what is above the end has its colour. */
-function scaleBar(title, colour, { half_text: half, scale_text: end, unit }) {
+function scaleBar(title, colour, { half_text: half, scale_text: end, unit }, words) {
   const bar = element('div', '', 'scale');
   const colours = element('i');
   colours.style.background = cssGradient(colour);
   const labels = element('div', '', 'labels');
-  labels.append(element('span', '0'), element('span', half), element('span', `≥ ${end}`));
+  for (const text of words ?? ['0', half, `≥ ${end}`]) labels.append(element('span', text));
   const both = element('div');
   both.append(colours, labels);
-  bar.append(element('b', title), both, element('span', `${unit}, linear scale`));
+  bar.append(element('b', title), both);
+  if (!words) bar.append(element('span', `${unit}, linear scale`));
   return bar;
 }
 
@@ -91,9 +92,12 @@ export class Controls {
       find('flow').closest('label').hidden = false;
       on('flow', (shown) => { view.flow.visible = shown; });
     }
-    if (this.run.meta.pieces)
+    if (this.run.meta.pieces) {
       find('ice').append(new Option('time since it broke off', 'age'),
         new Option('load that broke it off', 'breaking'));
+      find('ice').value = 'age';
+      view.setIceColours('age');
+    }
     on('through', (through) => view.hull.setSeeThrough(through));
     on('ice', (mode) => view.setIceColours(mode));
     on('hull', (mode) => view.hull.setColours(mode));
@@ -130,8 +134,11 @@ export class Controls {
     const ice = this.find('ice').value;
     const unbroken = swatches([['unbroken', STATES[0].rgb]]);
     if (ice === 'state') parts.push(swatches(states));
-    else if (ice === 'age')
-      parts.push(scaleBar('Time since it broke off', ageColour, meta.pieces.age), unbroken);
+    else if (ice === 'age') {
+      const { half_text: half, scale_text: end } = meta.pieces.age;
+      parts.push(scaleBar('Time since it broke off', ageColour, meta.pieces.age,
+        ['just now', `${half} s ago`, `${end} s ago`]), unbroken);
+    }
     else if (ice === 'breaking')
       parts.push(scaleBar('Load that broke it off', breakingColour, meta.pieces.load), unbroken);
     else parts.push(scaleBar('Force of the ship on a floe', forceColour, meta.load));

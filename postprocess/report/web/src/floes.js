@@ -18,12 +18,13 @@ uniform int floes, width, frames;
 uniform float frame, time, ageEnd;
 uniform vec3 scale, offset;
 in float floe;
-in vec2 piece; // when it broke off [s], < 0: never; by what share of the scale's load
+// when it broke off [s], -1: never, -2: a part of the sheet; by what share of the scale's load
+in vec2 piece;
 in vec3 edge;
 out vec3 vView, vEdge;
 out float vLoad;
 flat out vec2 vPiece; // age and load as shares of their scales; age < 0: unbroken
-flat out int vState;
+flat out int vState, vSheet;
 
 ivec4 texel(int k) { return texelFetch(poses, ivec2(k % width, k / width), 0); }
 vec3 rotate(vec4 q, vec3 v) { return v + 2.0 * cross(q.yzw, cross(q.yzw, v) + q.x * v); }
@@ -44,7 +45,9 @@ void main() {
   vPiece = vec2(piece.x < 0.0 ? -1.0 : (time - piece.x) / ageEnd, piece.y);
   vView = view.xyz;
   vEdge = edge;
+  vSheet = piece.x < -1.5 ? 1 : 0;
   gl_Position = projectionMatrix * view;
+  if (vState == 3) gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // not there: out of sight
 }`;
 
 const FRAGMENT = `
@@ -52,7 +55,7 @@ precision highp float;
 precision highp int;
 in vec3 vView, vEdge;
 in float vLoad;
-flat in int vState;
+flat in int vState, vSheet;
 flat in vec2 vPiece;
 uniform float loadMax, scaleEnd;
 uniform int mode; // row of MODES
@@ -68,7 +71,11 @@ void main() {
   if (mode == 1) base = states[clamp(vState, 0, 2)];
   if (mode >= 2) base = vPiece.x < 0.0 ? states[0]
                       : mode == 2 ? ageColour(vPiece.x) : breakingColour(vPiece.y);
-  colour = vec4(base * shade(vView) * outline(vEdge), 1.0);
+  // where parts of a sheet meet, a wall that is seen from its edge is a line, too
+  vec3 normal = normalize(cross(dFdx(vView), dFdy(vView)));
+  if (vSheet == 1 && abs(dot(normal, viewMatrix[2].xyz)) < 0.5 && abs(normal.z) < 0.2) discard;
+  // no line between the parts of a sheet shows where a crack will open
+  colour = vec4(base * shade(vView) * (vSheet == 1 ? 1.0 : outline(vEdge)), 1.0);
 }`;
 
 /** What the ice is coloured by; the last two are for pieces of level ice. */

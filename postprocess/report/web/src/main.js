@@ -81,7 +81,8 @@ async function start() {
     }
   }
   const charts = setUpCharts(run, playback);
-  playback.seek(playback.first);
+  // level ice is whole at first: its channel is seen at the end
+  playback.seek(run.meta.pieces ? playback.last : playback.first);
   followAddress(playback, view, controls);
   window.icepost = { run, playback, view, controls, charts };
   document.documentElement.dataset.viewer = view ? 'ready' : 'no-webgl';
