@@ -71,11 +71,11 @@ void main() {
   if (mode == 1) base = states[clamp(vState, 0, 2)];
   if (mode >= 2) base = vPiece.x < 0.0 ? states[0]
                       : mode == 2 ? ageColour(vPiece.x) : breakingColour(vPiece.y);
-  // where parts of a sheet meet, a wall that is seen from its edge is a line, too
+  // The sheet is one plate: no line between its parts shows where a crack will open, and walls,
+  // which show through where parts meet, are hardly darker than its faces.
   vec3 normal = normalize(cross(dFdx(vView), dFdy(vView)));
-  if (vSheet == 1 && abs(dot(normal, viewMatrix[2].xyz)) < 0.5 && abs(normal.z) < 0.2) discard;
-  // no line between the parts of a sheet shows where a crack will open
-  colour = vec4(base * shade(vView) * (vSheet == 1 ? 1.0 : outline(vEdge)), 1.0);
+  float plate = abs(dot(normal, viewMatrix[2].xyz)) < 0.5 ? 0.9 : 0.97;
+  colour = vec4(base * (vSheet == 1 ? plate : shade(vView) * outline(vEdge)), 1.0);
 }`;
 
 /** What the ice is coloured by; the last two are for pieces of level ice. */
