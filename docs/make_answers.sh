@@ -9,8 +9,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 icepost=${ICEPOST:-build/release/bin/icepost}
 run=yes
 [[ ${1:-} == --tables ]] && run=no && shift
-[[ $# -gt 0 ]] || set -- speed level-ice level-ice-inputs friction potential thickness stem restitution \
-    shape-channel size-channel shape-open size-open
+[[ $# -gt 0 ]] || set -- speed level-ice level-ice-inputs friction potential thickness \
+    stem restitution shape-channel size-channel shape-open size-open
 
 for name in "$@"; do
     [[ -f workflow/answers/$name.toml ]] || { echo "make_answers.sh: no sweep $name" >&2; exit 2; }

@@ -92,10 +92,11 @@ void print_row(const Row& r) {
     std::fflush(stdout);
 }
 
-// Bounds of the figures. The ledger's is that above which every run warns; a contact opens a tenth of
-// the thickness within some steps, and floes that rock on each other come deeper; 2 m/s is what
-// weight and buoyancy give a floe that rises 2 m without drag, from twice the depth there is. Memory
-// follows the busiest step so far, so that it is the second half of the hour that must not grow.
+// Bounds of the figures. The ledger's is that above which every run warns; a contact opens a tenth
+// of the thickness within some steps, and floes that rock on each other come deeper; 2 m/s is what
+// weight and buoyancy give a floe that rises 2 m without drag, from twice the depth there is.
+// Memory follows the busiest step so far, so that it is the second half of the hour that must not
+// grow.
 constexpr double kMostUnexplained = 0.005, kMostOverlap = 0.1 * soak::kThickness;
 constexpr double kMostSpeed = 2.0, kMostGrowth = 0.05;
 constexpr double kLong = 1800.0;  // simulated time from which memory is held to its bound [s]
