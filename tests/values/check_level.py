@@ -1,5 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Level ice that a ship breaks, and members of an ensemble: numbers that follow from the rows."""
+import csv
+import io
+import re
+import shutil
+import urllib.parse
+
 import h5py
 import numpy as np
 
@@ -27,6 +33,8 @@ spacing = 0.2
 flexural_strength = 4e5
 elastic_modulus = 3e9
 poisson_ratio = 0.31
+model = "wedge"
+factor = 1.3
 [contact]
 restitution = 0.1
 crushing_pressure = 1.1e6
@@ -35,6 +43,11 @@ average_from = {AVERAGE_FROM}
 """)
     work.run("icesolve", "level.cfg", "--out", "level", "--no-report")
     work.keep("level")
+    shutil.copytree(work / "level", work / "sheets/one")
+    work.run("icepost", "sweep", "sheets", "-o", "level.html")
+    text = re.search('download="points.csv" href="data:text/csv;charset=utf-8,([^"]*)"',
+                     (work / "level.html").read_text(encoding="utf-8"))
+    (work.level_point,) = csv.DictReader(io.StringIO(urllib.parse.unquote(text.group(1))))
     work.run("icesolve", "sheared.cfg", "--seeds", 3, "--out", "members", "--no-report", "--set",
              "simulation.jitter=0.05")
     work.files["summary.json"].append(work / "members" / "summary.json")
@@ -57,6 +70,8 @@ def check(work, values):
                        ("thickness_m", 0.2)):
         values.close("summary.json", "ice." + name, s["ice"][name], want, 1e-9)
     values.equal("summary.json", "ice.hold", s["ice"]["hold"], ["until-bent", "always"])
+    values.equal("summary.json", "ice.bending_model", s["ice"]["bending_model"], "wedge")
+    values.equal("summary.json", "ice.bending_factor", s["ice"]["bending_factor"], 1.3)
     energy = s["energy"]
     # the speed is the same all the time, and what breaks is at rest until it breaks: the ship's
     # work on held ice is all lost
@@ -69,8 +84,8 @@ def check(work, values):
                                                     "drift_work"))
     values.close("summary.json", "energy.breaking_J", spent, given, 1e-9)
     check_formulas(values, s)
-    if (work / "level/pieces.h5").exists():
-        check_pieces(work, values)
+    check_pieces(work, values)
+    check_cracks(work, values)
     check_members(work, values)
 
 
@@ -112,6 +127,41 @@ def check_pieces(work, values):
             values.within(form, "/pieces/" + name, pieces[name][()], low, high)
         for name in ("first_body", "piece_group", "rest_group"):
             values.within(form, "/@" + name, head[name], 0, 1000)
+
+
+def check_cracks(work, values):
+    """Means over the pieces of pieces.h5, in the summary and in the points of a sweep."""
+    s = work.summary("level")
+    cracks, resistance = s["level_ice"], s["resistance"]
+    length = (3e9 * 0.2 ** 3 / (12 * (1 - 0.31 ** 2) * 1000 * 9.81)) ** 0.25
+    with h5py.File(work / "level/pieces.h5") as file:
+        pieces, sheet = file["pieces"], file["sheet"]
+        radius = pieces["radius"][()].mean()
+        lost = sheet["mass"][()][sheet["gone"][()] > 0].sum() / (900 * 0.2)
+        # a piece is its part of the sheet less half a gap all around
+        area = pieces["mass"][()] / (900 * 0.2)
+        opening = np.degrees(np.minimum(2 * area / pieces["radius"][()] ** 2, np.pi)).mean()
+        known = {"pieces": len(pieces["mass"]), "crack_radius_m": radius,
+                 "characteristic_length_m": length, "thickness_m": 0.2,
+                 "crack_radius_per_length": radius / length,
+                 "crack_radius_per_thickness": radius / 0.2,
+                 "breaking_load_N": pieces["load"][()].mean()}
+    for name, want in known.items():
+        values.close("summary.json", "level_ice." + name, cracks[name], want, 1e-6)
+    values.within("summary.json", "level_ice.opening_deg", cracks["opening_deg"], 0.95 * opening,
+                  1.2 * opening)
+    # broken along the bow's way through the ice, 0.9 m/s for 4 s at most, and a crack before it
+    values.within("summary.json", "level_ice.channel_breadth_m", cracks["channel_breadth_m"],
+                  lost / (0.9 * 4.0 + 2 * radius), 8.0)
+    row = work.level_point
+    for name in ("crack_radius_m", "crack_radius_per_length", "crack_radius_per_thickness",
+                 "opening_deg", "channel_breadth_m"):
+        values.close("points.csv", name, float(row[name]), cracks[name], 1e-9)
+    for name in ("breaking", "submersion"):
+        values.close("points.csv", name + "_N", float(row[name + "_N"]),
+                     resistance[name + "_mean_N"], 1e-9)
+        # one run has no interval of its parts
+        values.equal("points.csv", name + "_ci95_N", row[name + "_ci95_N"], "")
 
 
 def check_formulas(values, s):
