@@ -31,7 +31,9 @@ std::string meant_value(const UsualRange& range, double value) {
         text = as_text;
     };
     for (const InputUnit& unit : range.units.subspan(1)) {
-        consider(value * unit.factor, fmt::format("{:g} {}", value, unit.name));
+        // as it was written, unless that is a number of many digits
+        consider(value * unit.factor, value < 1e3 ? fmt::format("{:g} {}", value, unit.name)
+                                                  : in_own_unit(value * unit.factor, range.units));
         consider(value / unit.factor, in_own_unit(value / unit.factor, range.units));
     }
     return text;
