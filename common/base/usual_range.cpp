@@ -18,8 +18,8 @@ std::string in_own_unit(double value, std::span<const InputUnit> units) {
     return fmt::format("{:g} {}", value / unit->factor, unit->name);
 }
 
-// What the number is when it was meant in a larger unit, or given in one that is too large, and
-// comes into the range by that; "" where no unit does this.
+// The value in the unit that was probably meant: a larger or a smaller one that brings the number
+// into the range; "" where no unit does this.
 std::string meant_value(const UsualRange& range, double value) {
     std::string text;
     double nearest = std::numeric_limits<double>::infinity();
