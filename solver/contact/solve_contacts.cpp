@@ -38,10 +38,6 @@ constexpr double kNear = 1e-4;
 // becomes overlap. Fewer leave more steps unconverged; a step with more than two is rare.
 constexpr int kRestSolutions = 5;
 
-bool meets_within_step(const Constraint& c, double dt) {
-    return c.gap + dt * std::min(c.approach, 0.0) <= 0.0;
-}
-
 // The ship and held ice, if no impulse moves either of them along the normal: the ice is crushed.
 // On a ship that is free in other directions friction acts, at most as much as ends the sliding.
 void drive_through(Bodies& bodies, Constraint& c) {
@@ -137,7 +133,7 @@ SolveReport ContactSolver::resolve_impacts(Bodies& bodies, std::vector<Constrain
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         Constraint& c = constraints[k];
         // a contact that stays open through the step has no part in the impacts
-        if (!meets_within_step(c, dt)) continue;
+        if (!meet_within(c.gap, c.approach, dt)) continue;
         meeting_.push_back(static_cast<std::int32_t>(k));
         approaching = approaching || c.approach < 0.0;
         // Neither body can move: the bound (13) acts as long as they approach. Rigid ice has no

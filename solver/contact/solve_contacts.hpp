@@ -26,7 +26,8 @@ public:
     /// Impact stage: contacts that meet within the step bounce, on the velocities before the
     /// loads.
     ///
-    /// For every contact with gap + dt min(v_r0 . n, 0) <= 0, accumulated impulses J_n, J_t with
+    /// For every contact with gap + dt min(v_r0 . n, 0) <= 1 um (meet_within), accumulated impulses
+    /// J_n, J_t with
     ///
     ///     0 <= J_n <= max_impulse,   u = v_r . n + e v_r0 . n:   u >= 0 where J_n = 0,
     ///     u = 0 where 0 < J_n < max_impulse,   u <= 0 where J_n = max_impulse,

@@ -2,7 +2,6 @@
 #include "solver/step/release_touched.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 
 namespace ice {
 
@@ -12,9 +11,9 @@ bool touches(const Bodies& b, const Contact& c, double dt) {
     const auto velocity_at = [&](std::int32_t i) -> Vec3 {
         return b.velocity[i] + b.angular_velocity[i].cross(b.arm(i, c.point));
     };
-    // The same criterion as for impacts: the gap closes within the step.
+    // the same criterion as for impacts
     const double approach = (velocity_at(c.b) - velocity_at(c.a)).dot(c.normal);
-    return c.gap + dt * std::min(approach, 0.0) <= 0.0;
+    return meet_within(c.gap, approach, dt);
 }
 
 // May `touched` be released by a contact with `other`?

@@ -158,13 +158,38 @@ TEST_CASE("a side that was crushed at both ends meets a face with both", "[narro
     const ConvexPiece wall = box(Vec3(1, 2, 1));
     for (const double turn : {-0.015, 0.015}) {
         const Mat3 turned = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
-        const ContactPolygon polygon = meet(wall, floe, {turned, Vec3(-0.98, 0.0, 0.0)}, 0.001);
+        const RelativePose pose{turned, Vec3(-0.98, 0.0, 0.0)};
+        ContactPolygon polygon;
+        ClippingWork work;
+        find_polygon({wall, floe, pose}, find_axes(wall, floe, pose, kAll), 0.001, work, polygon);
         REQUIRE(polygon.normal == -Vec3::UnitX());
+        REQUIRE(polygon.corners.size() == 4);
         const auto [low, high] = std::minmax_element(
             polygon.corners.begin(), polygon.corners.end(),
             [](const auto& l, const auto& r) { return l.point.y() < r.point.y(); });
         CHECK(high->point.y() - low->point.y() > 0.75);
     }
+}
+
+TEST_CASE("pressed corners come before open ones, and outer before inner ones",
+          "[narrow][analytic]") {
+    // a side of 0.5 m overlaps by 1 mm, the sides next to it are open by 2 mm at their ends
+    const ConvexPiece wall = box(Vec3(1, 2, 1));
+    ConvexPiece floe = box(Vec3(1, 0.8, 0.3));
+    for (const double side : {-1.0, 1.0})
+        REQUIRE(crush_solid(floe, Vec3(1, 0.02 * side, 0).normalized(), Vec3(0.5, 0.25 * side, 0)));
+    const RelativePose pose{Mat3::Identity(), Vec3(-0.999, 0.0, 0.0)};
+    ContactPolygon polygon;
+    ClippingWork work;
+    find_polygon({wall, floe, pose}, find_axes(wall, floe, pose, kAll), 0.005, work, polygon);
+    REQUIRE(polygon.corners.size() == 4);
+    for (const PolygonCorner& c : polygon.corners) CHECK(c.gap == Near(-1e-3).margin(2e-4));
+    // the front of a thin piece that is deep in a face, and not its back
+    const ConvexPiece deck = box(Vec3(1, 0.8, 0.3)), chip = box(Vec3(0.5, 0.4, 0.02));
+    const RelativePose deep{Mat3::Identity(), Vec3(0, 0, 0.13)};
+    find_polygon({deck, chip, deep}, find_axes(deck, chip, deep, kAll), 0.001, work, polygon);
+    REQUIRE(polygon.corners.size() == 4);
+    for (const PolygonCorner& c : polygon.corners) CHECK(c.gap == Near(-0.03).epsilon(1e-9));
 }
 
 TEST_CASE("no corner is deeper than the penetration, one of each overlap is as deep",

@@ -285,6 +285,9 @@ struct Row {
         scene.bodies.velocity[1] = Vec3(speed, 0, 0);
         build_constraints(scene.bodies, contacts, law, kDt, constraints);
     }
+    SolveReport impact() {
+        return ContactSolver().resolve_impacts(scene.bodies, constraints, law, kDt);
+    }
     SolveReport rest() { return ContactSolver().resolve_rest(scene.bodies, constraints, law, kDt); }
     // The first `moved` floes share the momentum, each slower than the one behind it by gap / dt;
     // the next one still rests.
@@ -306,6 +309,21 @@ TEST_CASE("a push goes on through floes whose gaps it closes within the step, an
     Row row(4, 0.001, 0.5);
     REQUIRE(row.rest().converged);
     row.check_moved(3, 0.001, 0.5);
+}
+
+TEST_CASE("an impact goes through floes that touch, whatever the rounding of their gaps",
+          "[contact][analytic]") {
+    Row open(4, 1e-12, 0.5), pressed(4, -1e-12, 0.5);
+    for (Row* row : {&open, &pressed}) REQUIRE(row->impact().converged);
+    for (std::size_t k = 1; k <= 4; ++k)
+        CHECK(open.scene.bodies.velocity[k].x() ==
+              Near(pressed.scene.bodies.velocity[k].x()).margin(1e-9));
+    // those that touched stay together, and momentum and e hold for the first
+    CHECK(open.scene.bodies.velocity[4].x() == Near(0.5 * 1.3 / 4.0).margin(1e-9));
+    Row apart(4, 1e-5, 0.5);  // the first meets the second, which meets the third a step later
+    REQUIRE(apart.impact().converged);
+    CHECK(apart.scene.bodies.velocity[2].x() == Near(0.5 * 1.3 / 2.0).epsilon(1e-9));
+    CHECK(apart.scene.bodies.velocity[3].x() == 0.0);
 }
 
 TEST_CASE("a push that goes on through more floes than there are solutions is not converged",

@@ -55,7 +55,7 @@ TEST_CASE("ice that drifts past a ship at rest is a ship in still ice", "[ship][
         update_derived(b, static_cast<std::size_t>(i));
     }
     double most = 0.0;
-    for (int k = 0; k < 60; ++k) {
+    for (int k = 0; k < 100; ++k) {
         step(goes);
         step(rests);
         const auto [normal, tangent] = ship_on_ice(goes);
@@ -74,8 +74,7 @@ TEST_CASE("a heavy ship crushes held ice and jams as one on a prescribed course"
     for (const auto& [row, hold] :
          {std::pair(0, Hold::always), {1, Hold::always}, {1, Hold::until_hull_contact}}) {
         World prescribed = rough_ride(4000.0, {}, 6, row);
-        // so heavy that the ice moves it by less than what a hundred steps of impacts enlarge
-        World heavy = rough_ride(4e14, {surge, sway, yaw}, 6, row);
+        World heavy = rough_ride(4e12, {surge, sway, yaw}, 6, row);
         bool held = false, jammed = false;
         for (World* w : {&prescribed, &heavy}) {
             w->parameters.floes[0].hold = hold;
@@ -114,8 +113,7 @@ TEST_CASE("held ice that drifts past a ship at rest is a ship in held ice", "[sh
         double most = 0.0;
         bool held = false;
         CAPTURE(row);
-        // each impact enlarges the rounding of places: after some hundred steps to 1e-8
-        for (int k = 0; k < 90; ++k) {
+        for (int k = 0; k < 100; ++k) {
             step(goes);
             const Momenta before = momenta_of(rests);
             step(rests);

@@ -12,8 +12,7 @@ namespace ice {
 namespace {
 
 // What a corner is, in its id: 2 bits for the kind of axis, 6 for the face, 2 for this, and 22 for
-// the numbers of the features.
-enum class Met : std::uint32_t { incident_corner, edge_over_side, reference_corner };
+// the numbers of the features. Euler's formula allows a piece twice as many edges as corners.
 static_assert(ConvexPiece::kMost <= 64);
 
 class FaceCorners {
@@ -25,6 +24,7 @@ public:
           incident_(incident),
           pose_(pose),
           sides_(reference.side_planes[face]),
+          loop_(reference.loops[face]),
           n_(reference.normals[face]),
           offset_(reference.offsets[face]),
           slack_(slack),
@@ -32,9 +32,14 @@ public:
           id_(kind << 30 | static_cast<std::uint32_t>(face) << 24),
           work_(work),
           out_(out) {
+        const Vec3 along = ordered_transposed(pose.rotation, n_);
+        work.facing.clear();
+        for (std::size_t k = 0; k < incident.plane_count(); ++k)
+            work.facing.push_back(ordered_dot(incident.normals[k], along));
         work.places.clear();
         work.heights.clear();
         work.beyond.clear();
+        work.turned.assign(incident.corners.size(), 0);
         for (std::size_t k = 0; k < incident.corners.size(); ++k) {
             const Vec3 at = ordered_product(pose.rotation, incident.corners[k]) + pose.translation;
             work.places.push_back(at);
@@ -44,15 +49,24 @@ public:
     }
 
     void append() {
+        for (std::size_t e = 0; e < incident_.edges.size(); ++e) {
+            const SolidEdge& edge = incident_.edges[e];
+            // the surface behind, which is turned away from the face, does not meet it
+            if (facing(edge.left) >= 0.0 && facing(edge.right) >= 0.0) continue;
+            work_.turned[static_cast<std::size_t>(edge.begin)] = 1;
+            work_.turned[static_cast<std::size_t>(edge.end)] = 1;
+            add_crossings(e);
+        }
         for (std::size_t k = 0; k < work_.places.size(); ++k)
-            if (work_.heights[k] <= most_ && is_over_face(k))
+            if (work_.turned[k] && work_.heights[k] <= most_ && is_over_face(k))
                 add(work_.places[k], work_.heights[k], Met::incident_corner, k, 0);
-        for (std::size_t e = 0; e < incident_.edges.size(); ++e) add_crossings(e);
-        const std::vector<std::int32_t>& loop = loop_of_face();
-        for (const std::int32_t corner : loop) add_below(static_cast<std::size_t>(corner));
+        for (const std::int32_t corner : loop_) add_entry(static_cast<std::size_t>(corner));
     }
 
 private:
+    double facing(std::int32_t plane) const {
+        return work_.facing[static_cast<std::size_t>(plane)];
+    }
     double beyond(const SidePlane& side, const Vec3& at) const {
         return ordered_dot(side.outward, at) - (side.offset + slack_);
     }
@@ -85,14 +99,13 @@ private:
         return true;
     }
 
-    // Under a corner of the face: where the line along the normal enters the incident piece.
-    void add_below(std::size_t corner) {
+    // Where the line along the normal through a corner of the face enters the incident piece.
+    void add_entry(std::size_t corner) {
         const Vec3 at = reference_.corners[corner];
-        const Vec3 from = ordered_transposed(pose_.rotation, Vec3(at - pose_.translation)),
-                   along = ordered_transposed(pose_.rotation, n_);
+        const Vec3 from = ordered_transposed(pose_.rotation, Vec3(at - pose_.translation));
         double enters = -std::numeric_limits<double>::infinity(), leaves = -enters;
         for (std::size_t k = 0; k < incident_.plane_count(); ++k) {
-            const double facing = ordered_dot(incident_.normals[k], along),
+            const double facing = work_.facing[k],
                          above = incident_.offsets[k] - ordered_dot(incident_.normals[k], from);
             if (facing < 0.0) enters = std::max(enters, above / facing);
             if (facing > 0.0) leaves = std::min(leaves, above / facing);
@@ -109,14 +122,11 @@ private:
                             static_cast<std::uint32_t>(first << 8 | second)});
     }
 
-    const std::vector<std::int32_t>& loop_of_face() const {
-        return reference_.loops[(id_ >> 24) & 63u];
-    }
-
     const ConvexPiece& reference_;
     const ConvexPiece& incident_;
     const RelativePose& pose_;
     const std::vector<SidePlane>& sides_;
+    const std::vector<std::int32_t>& loop_;  // the face's corners
     Vec3 n_;
     double offset_, slack_, most_;
     std::uint32_t id_;

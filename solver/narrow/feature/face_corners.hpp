@@ -9,9 +9,16 @@
 
 namespace ice {
 
+/// What meets the face in a corner.
+enum class Met : std::uint32_t { incident_corner, reference_corner, edge_over_side };
+
+/// Of a corner that append_face_corners gave. Corners of other origin have any value.
+inline Met kind_of_corner(const PolygonCorner& c) { return static_cast<Met>(c.id >> 22 & 3u); }
+
 /// Appends the corners in which a convex piece, the incident one, meets a face of another, the
 /// reference: its corners over the face, its edges where they cross a side plane of the face, and
-/// the face's own corners below it.
+/// the places where lines along the normal through the face's own corners enter it. Its surface
+/// that is turned away from the face has none.
 ///
 /// One face of the incident piece is not enough where crushing has rounded it: the face at its
 /// deepest corner changes from step to step, the contacts with it, and the piece rocks deeper and

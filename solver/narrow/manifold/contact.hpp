@@ -2,6 +2,7 @@
 /// The output of the narrow phase and input of the contact solver.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -28,5 +29,18 @@ struct Contact {
     /// Do solids meet? They have no spheres.
     bool is_of_solids() const { return sphere_a < 0; }
 };
+
+/// Gaps that differ by less are equal [m]. Surfaces that rest on each other have gaps of either
+/// sign, which are what the solver and rounding left: without this rounding decides which of them
+/// take part in an impact. Larger values let floes bounce before they touch.
+inline constexpr double kSameGap = 1e-6;
+
+/// Do surfaces meet within a step?
+/// @param gap       now [m], negative where they overlap
+/// @param approach  its rate [m/s], negative where it closes
+/// @param dt        the step [s]
+inline bool meet_within(double gap, double approach, double dt) {
+    return gap + dt * std::min(approach, 0.0) <= kSameGap;
+}
 
 }  // namespace ice

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "common/base/assert.hpp"
+#include "common/math/ordered_products.hpp"
 #include "solver/narrow/feature/deep_pair.hpp"
+#include "solver/narrow/feature/face_corners.hpp"
 #include "solver/narrow/feature/nearest_sphere.hpp"
 #include "solver/narrow/manifold/make_contacts.hpp"
 
@@ -21,6 +24,15 @@ constexpr double kReach = 1e-3;
 // in radii of the smaller one. A larger depth may pass right through thin ice, a smaller one
 // compares areas of the size of rounding.
 constexpr double kSliceDepth = 0.04;
+
+// Corners this near to each other along the face are one [m]: a side plane's slack (kBesidePlane)
+// makes two of the corner of a flush face. Larger joins corners of small faces; smaller weights one
+// place twice.
+constexpr double kSamePlace = 2.0 * PolygonTolerances::kBesidePlane;
+
+// A corner with less area (twice, m2) lies on the line of its neighbours: that is rounding. A
+// larger value drops corners that carry load.
+constexpr double kNoArea = 1e-6;
 
 // Slices this near to each other [-] are equal: rounding of areas shall not decide.
 constexpr double kSameArea = 1e-6;
@@ -45,6 +57,73 @@ double section_of_corner(const SolidPair& solids, const ContactPolygon& polygon,
            static_cast<double>(pressed);
 }
 
+// Orders corners by place, as place_key() does; coordinates that differ by rounding are equal.
+auto steady_key(const PolygonCorner& c) {
+    const auto step = [](double length) { return std::llround(length / kSameGap); };
+    return std::tuple(step(c.point.x()), step(std::abs(c.point.y())), step(c.point.z()),
+                      place_key(c));
+}
+
+// Orders corners by depth. Of equally deep ones corners of a body come before edges that cross side
+// planes, so that rounding does not choose between two of them at one place.
+bool is_deeper(const PolygonCorner& l, const PolygonCorner& r) {
+    const auto key = [](const PolygonCorner& c) {
+        return std::tuple(c.gap + kSameGap * static_cast<double>(kind_of_corner(c)),
+                          steady_key(c));
+    };
+    return key(l) < key(r);
+}
+
+// Area of the triangle that the polygon loses with corner k, seen along the normal [m2], twice; not
+// positive where the corner lies within the others.
+double loss_of(const ContactPolygon& polygon, std::size_t k) {
+    const auto& corners = polygon.corners;
+    const std::size_t n = corners.size();
+    const Vec3 &at = corners[k].point, before = corners[(k + n - 1) % n].point - at,
+               after = corners[(k + 1) % n].point - at;
+    return ordered_dot(polygon.normal, Vec3(after.cross(before)));
+}
+
+// Drops corners within the others, but for the deepest. @pre order_around
+void drop_inner(ContactPolygon& polygon) {
+    auto& corners = polygon.corners;
+    const PolygonCorner deepest = *std::min_element(corners.begin(), corners.end(), is_deeper);
+    for (std::size_t k = 0; k < corners.size() && corners.size() > kManifoldCorners;) {
+        if (corners[k].id == deepest.id || loss_of(polygon, k) > kNoArea) {
+            ++k;
+            continue;
+        }
+        corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(k));
+        k = k > 0 ? k - 1 : 0;  // the one before has another neighbour now
+    }
+}
+
+// Chooses the corners that carry the load: of two at one place the deeper one, open ones last, and
+// those that span the largest area.
+void choose_corners(ContactPolygon& polygon) {
+    auto& corners = polygon.corners;
+    if (corners.empty()) return;
+    std::sort(corners.begin(), corners.end(), is_deeper);
+    std::size_t kept = 0;
+    for (const PolygonCorner& corner : corners) {
+        const bool again = std::any_of(
+            corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(kept),
+            [&](const PolygonCorner& other) {
+                return polygon.normal.cross(Vec3(corner.point - other.point)).squaredNorm() <
+                       kSamePlace * kSamePlace;
+            });
+        if (!again) corners[kept++] = corner;
+    }
+    corners.resize(kept);
+    while (corners.size() > kManifoldCorners &&
+           corners.back().gap > std::max(corners.front().gap, 0.0) + kReach)
+        corners.pop_back();
+    if (corners.size() <= kManifoldCorners) return;
+    order_around(polygon);
+    drop_inner(polygon);
+    reduce_polygon(kManifoldCorners, polygon);
+}
+
 }  // namespace
 
 PairRule pair_rule_of(const Scene& scene, BodyPair pair, const ContactRule& rule) {
@@ -63,13 +142,11 @@ void find_polygon(const SolidPair& solids, const SeparatingAxes& axes, double mo
                   ClippingWork& work, ContactPolygon& polygon) {
     make_contact_polygon(solids.a, solids.b, solids.pose, axes, IncidentFaces::all, most, work,
                          polygon);
-    if (polygon.corners.size() > kManifoldCorners) {
-        order_around(polygon);
-        reduce_polygon(kManifoldCorners, polygon);
-    }
-    std::sort(
-        polygon.corners.begin(), polygon.corners.end(),
-        [](const PolygonCorner& l, const PolygonCorner& r) { return place_key(l) < place_key(r); });
+    choose_corners(polygon);
+    std::sort(polygon.corners.begin(), polygon.corners.end(),
+              [](const PolygonCorner& l, const PolygonCorner& r) {
+                  return steady_key(l) < steady_key(r);
+              });
 }
 
 void append_pressed(const SolidPair& solids, const ContactPolygon& polygon, SectionWork& work,
