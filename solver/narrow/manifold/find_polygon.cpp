@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
 #include "common/base/assert.hpp"
 #include "common/math/ordered_products.hpp"
@@ -58,20 +58,26 @@ double section_of_corner(const SolidPair& solids, const ContactPolygon& polygon,
 }
 
 // Orders corners by place, as place_key() does; coordinates that differ by rounding are equal.
-auto steady_key(const PolygonCorner& c) {
-    const auto step = [](double length) { return std::llround(length / kSameGap); };
-    return std::tuple(step(c.point.x()), step(std::abs(c.point.y())), step(c.point.z()),
-                      place_key(c));
+bool comes_before(const PolygonCorner& l, const PolygonCorner& r) {
+    const auto steps = [](double length) {
+        return static_cast<std::int64_t>(length / kSameGap + std::copysign(0.5, length));
+    };
+    for (const auto& [p, q] : {std::pair(l.point.x(), r.point.x()),
+                               std::pair(std::abs(l.point.y()), std::abs(r.point.y())),
+                               std::pair(l.point.z(), r.point.z())}) {
+        const std::int64_t at_p = steps(p), at_q = steps(q);
+        if (at_p != at_q) return at_p < at_q;
+    }
+    return place_key(l) < place_key(r);
 }
 
 // Orders corners by depth. Of equally deep ones corners of a body come before edges that cross side
 // planes, so that rounding does not choose between two of them at one place.
 bool is_deeper(const PolygonCorner& l, const PolygonCorner& r) {
-    const auto key = [](const PolygonCorner& c) {
-        return std::tuple(c.gap + kSameGap * static_cast<double>(kind_of_corner(c)),
-                          steady_key(c));
+    const auto gap = [](const PolygonCorner& c) {
+        return c.gap + kSameGap * static_cast<double>(kind_of_corner(c));
     };
-    return key(l) < key(r);
+    return gap(l) < gap(r) || (gap(l) == gap(r) && comes_before(l, r));
 }
 
 // Area of the triangle that the polygon loses with corner k, seen along the normal [m2], twice; not
@@ -98,23 +104,33 @@ void drop_inner(ContactPolygon& polygon) {
     }
 }
 
+// Of two corners at one place along the face the deeper one stays.
+void drop_doubles(ContactPolygon& polygon) {
+    auto& corners = polygon.corners;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const PolygonCorner corner = corners[k];
+        std::size_t same = 0;
+        for (; same < kept; ++same) {
+            const Vec3 apart = corner.point - corners[same].point;
+            const double height = ordered_dot(polygon.normal, apart);
+            if (ordered_dot(apart, apart) - height * height < kSamePlace * kSamePlace) break;
+        }
+        if (same == kept)
+            corners[kept++] = corner;
+        else if (is_deeper(corner, corners[same]))
+            corners[same] = corner;
+    }
+    corners.resize(kept);
+}
+
 // Chooses the corners that carry the load: of two at one place the deeper one, open ones last, and
 // those that span the largest area.
 void choose_corners(ContactPolygon& polygon) {
     auto& corners = polygon.corners;
-    if (corners.empty()) return;
+    drop_doubles(polygon);
+    if (corners.size() <= kManifoldCorners) return;
     std::sort(corners.begin(), corners.end(), is_deeper);
-    std::size_t kept = 0;
-    for (const PolygonCorner& corner : corners) {
-        const bool again = std::any_of(
-            corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(kept),
-            [&](const PolygonCorner& other) {
-                return polygon.normal.cross(Vec3(corner.point - other.point)).squaredNorm() <
-                       kSamePlace * kSamePlace;
-            });
-        if (!again) corners[kept++] = corner;
-    }
-    corners.resize(kept);
     while (corners.size() > kManifoldCorners &&
            corners.back().gap > std::max(corners.front().gap, 0.0) + kReach)
         corners.pop_back();
@@ -143,10 +159,7 @@ void find_polygon(const SolidPair& solids, const SeparatingAxes& axes, double mo
     make_contact_polygon(solids.a, solids.b, solids.pose, axes, IncidentFaces::all, most, work,
                          polygon);
     choose_corners(polygon);
-    std::sort(polygon.corners.begin(), polygon.corners.end(),
-              [](const PolygonCorner& l, const PolygonCorner& r) {
-                  return steady_key(l) < steady_key(r);
-              });
+    std::sort(polygon.corners.begin(), polygon.corners.end(), comes_before);
 }
 
 void append_pressed(const SolidPair& solids, const ContactPolygon& polygon, SectionWork& work,
