@@ -54,7 +54,7 @@ Vec3 ship_impulse(Bodies bodies, const std::vector<Constraint>& solved, const St
 
 Stage impacts_of(double dt) {
     return {[](const Constraint&) { return 0.0; },
-            [dt](const Constraint& c) { return c.gap + dt * std::min(c.approach, 0.0) <= 0.0; },
+            [dt](const Constraint& c) { return meet_within(c.gap, c.approach, dt); },
             [](const Constraint& c) { return Vec3(c.impact_normal * c.normal + c.impact_tangent); },
             [](const Constraint& c) { return c.impact_normal >= c.max_impulse * (1.0 - 1e-9); }};
 }
