@@ -2,21 +2,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Overlaps of the bodies in a run's frames, found without the solver's code.
 
-    check_poses.py RUN... [--every N] [--max-share S] [--max-depth D] [--worst K] [--json FILE]
+    check_poses.py RUN... [--every N | --at-end] [--max-share S] [--max-depth D] [--worst K]
+                          [--json FILE]
 
 RUN is a run folder or its run.h5. Each pair of bodies whose boxes meet is clipped exactly; the
 depth is that of the deepest of either one's surface samples inside the other. Solids count whole,
-as their meshes stand in run.h5: ice that contacts have crushed counts as overlap. Pairs of unbroken
-ice that never move are left out. Exit code 1 when a pair is beyond a limit.
+as their meshes stand in run.h5: ice that contacts have crushed counts as overlap. With --at-end the
+last frame alone is looked at, and convex floes are without the ice that floes have crushed off
+them, by the run's checkpoint.h5 of the same time. Pairs of unbroken ice that never move are left
+out. Exit code 1 when a pair is beyond a limit.
 """
 import argparse
 import json
+import pathlib
 import sys
 
 import numpy as np
 
 from clip_columns import overlap_volume
 from deepest_point import Samples, deepest
+from left_solids import left_solids
 from run_poses import Run
 
 SAMPLES_PER_THICKNESS = 5  # a floe's surface is sampled at a fifth of its thickness
@@ -59,7 +64,7 @@ class Frame:
 def measure(frame, a, b):
     """(overlap volume [m3], depth [m]) of a pair."""
     run = frame.run
-    solid_a, solid_b = run.solid(a), run.solid(b)
+    solid_a, solid_b = run.solid_to(a, b), run.solid_to(b, a)
     vertices = frame.carry(solid_b.vertices, b, a)
     triangles_a = solid_a.vertices[solid_a.triangles]
     volume = overlap_volume(vertices[solid_b.triangles], triangles_a)
@@ -70,7 +75,7 @@ def measure(frame, a, b):
 
 def depth_of(frame, body, other):
     """Depth of the deepest sample of the body's surface inside the other one."""
-    solid, target = frame.run.solid(body), frame.run.solid(other)
+    solid, target = frame.run.solid_to(body, other), frame.run.solid_to(other, body)
     thickness = min(solid.thickness, target.thickness)
     return deepest(samples(solid, thickness / SAMPLES_PER_THICKNESS),
                    lambda points: frame.carry(points, body, other),
@@ -84,10 +89,10 @@ def samples(solid, spacing):
     return solid.samples[1]
 
 
-def check(run, every):
+def check(run, every, first=0):
     """Rows {time_s, a, b, volume_m3, share, depth_m, depth_share} of all pairs that overlap."""
     rows, known, last = [], {}, None
-    for index in range(0, len(run.time), every):
+    for index in range(first, len(run.time), every):
         frame = Frame(run, index)
         still = np.zeros(len(run.shape_of), dtype=bool)
         if last is not None:
@@ -140,6 +145,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("run", nargs="+", help="run folder or run.h5")
     parser.add_argument("--every", type=int, default=1, help="look at each n-th frame")
+    parser.add_argument("--at-end", action="store_true",
+                        help="the last frame, without ice that floes have crushed off each other")
     parser.add_argument("--max-share", type=float, default=0.005,
                         help="of the smaller floe's volume (default 0.005)")
     parser.add_argument("--max-depth", type=float, default=np.inf, help="[m] (default: no limit)")
@@ -149,8 +156,11 @@ def main():
     beyond, table = 0, {}
     for name in options.run:
         run = Run(name)
-        rows = check(run, options.every)
-        report(run, name, rows, len(range(0, len(run.time), options.every)), options.worst)
+        first = 0
+        if options.at_end:
+            run.left, first = left_solids(pathlib.Path(name) / "checkpoint.h5"), len(run.time) - 1
+        rows = check(run, options.every, first)
+        report(run, name, rows, len(range(first, len(run.time), options.every)), options.worst)
         table[name] = rows
         beyond += len({(r["a"], r["b"]) for r in rows if r["share"] > options.max_share
                        or r["depth_m"] > options.max_depth})

@@ -9,6 +9,7 @@ their projections on the level plane overlap. The level that the columns begin a
 import numpy as np
 
 CHUNK = 200_000  # pairs of triangles clipped at a time
+UPRIGHT = 1e-10  # sine of an upright triangle's angle: rounding of coordinates
 
 
 def overlap_volume(a, b):
@@ -27,8 +28,10 @@ def overlap_volume(a, b):
 
 
 def level(triangles):
-    """Without the triangles that stand upright: their columns are empty."""
-    return triangles[np.abs(twice_area(triangles)) > 0.0]
+    """Without the triangles that stand upright: their columns are empty. Where they lean by
+    rounding alone, heights over them are anything."""
+    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    return triangles[np.abs(normal[:, 2]) > UPRIGHT * np.linalg.norm(normal, axis=1)]
 
 
 def twice_area(triangles):

@@ -10,6 +10,7 @@ import numpy as np
 
 from clip_columns import overlap_volume
 from deepest_point import Samples, deepest, is_inside
+from left_solids import left_solids
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -60,10 +61,32 @@ def volumes():
     tetrahedron = corner, np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
     # the plane x + y + z = 1 cuts a corner of 0.5 off the cube of 0.5: 1/8 - (1/2)^3/6
     close(shared(box((1, 1, 1)), tetrahedron), 0.125 - 0.125 / 6, 1e-12, "a tetrahedron in a box")
+    # the same with sides that lean by rounding, as those of crushed solids do
+    leaning = one[0] + 1e-16 * np.sign(one[0][:, [2]]) * (1, 0, 0), one[1]
+    close(shared(leaning, octagon), 2 * (np.sqrt(2) - 1), 1e-12, "a box that leans by rounding")
     notched = prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], 0, 1)
     close(shared(notched, box((1, 1, 1), (1.5, 1.5, 0.5))), 0.0, 1e-12, "a box in a notch")
     close(shared(notched, box((1, 1, 1), (1.4, 1.3, 0.5))), 0.1 * 1 + 0.9 * 0.2, 1e-12,
           "a box in both arms of an angle")
+
+
+def left_of_crushed(folder):
+    """A tetrahedron, its right angle in the origin and three edges of 2 m, that lost its tip."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / "checkpoint.h5"
+    corners = [(0, 0, 0), (2, 0, 0), (0, 2, 0), (1, 0, 1), (0, 1, 1), (0, 0, 1)]
+    # planes: x = 0, y = 0, z = 0, the slope and z = 1; each edge along left x right
+    edges = [(0, 1, 1, 2), (2, 0, 0, 2), (1, 2, 3, 2), (5, 0, 1, 0), (1, 3, 1, 3), (4, 2, 0, 3),
+             (3, 4, 4, 3), (4, 5, 4, 0), (5, 3, 4, 1)]
+    with h5py.File(path, "w") as file:
+        for name, values in (("body", [7]), ("planes", [5]), ("corners", [6]), ("edges", [9]),
+                             ("corner", np.array(corners, dtype=float))):
+            file[f"crushed_solids.{name}"] = values
+        for k, name in enumerate(("begin", "end", "left", "right")):
+            file[f"crushed_solids.edge_{name}"] = [edge[k] for edge in edges]
+    left = left_solids(path)
+    assert list(left) == [7]
+    close(left[7].volume, 8.0 / 6 - 1.0 / 6, 1e-12, "a tetrahedron without its tip")
 
 
 def turned_together():
@@ -142,6 +165,7 @@ def program(folder):
 
 
 volumes()
+left_of_crushed(pathlib.Path(sys.argv[1]))
 turned_together()
 depths()
 program(pathlib.Path(sys.argv[1]))

@@ -40,6 +40,7 @@ class Run:
             if file.attrs["dimension"] != 3:
                 sys.exit(f"{path}: a run in 2D; poses are checked in 3D only")
             self.solids = solids_of(file["shapes"])
+            self.left = {}  # {body: Solid} of crushed floes, where known (left_solids.py)
             frames = file["frames"]
             self.time = frames["frame_time"][:]
             self.shape_of = np.concatenate([[0], frames["body_shape"][:]])
@@ -68,6 +69,11 @@ class Run:
 
     def solid(self, body):
         return self.solids[self.shape_of[body]]
+
+    def solid_to(self, body, other):
+        """The body's solid that the other one meets: without the ice that floes have crushed."""
+        whole = self.solid(body)
+        return whole if 0 in (body, other) else self.left.get(body, whole)
 
     def rotation(self, frame, body):
         """Body to world, 3 x 3."""
