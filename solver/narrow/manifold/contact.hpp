@@ -15,15 +15,16 @@ namespace ice {
 /// (a, b), within a pair by place (ContactFinder): results depend on that order.
 struct Contact {
     std::int32_t a, b;                ///< bodies, a < b; a = 0 is the ship
-    std::int32_t sphere_a, sphere_b;  ///< surface spheres of their shapes; -1 where solids meet
-    std::uint64_t key;                ///< the same contact of a pair keeps it in the next step
-    Vec3 point;                       ///< midway between the surfaces, world axes [m]
-    Vec3 normal;                      ///< unit, from a to b
-    double gap;                       ///< [m], negative where the surfaces overlap
-    Patch patch;                      ///< the surface that presses here, for the bound (13)
-    std::int32_t region;              ///< row of the hull's region_names; -1 between floes
-    bool crushes_a;                   ///< the ice that is crushed is a's; else b's
-    /// Of solids that can be crushed: the section that presses here, A of (13) [m2].
+    std::int32_t sphere_a, sphere_b;  ///< contact spheres of their shapes; -1 where solids meet
+    /// Names the contact within its pair, from step to step: it begins with its last impulse.
+    std::uint64_t key;
+    Vec3 point;           ///< midway between the surfaces, world axes [m]
+    Vec3 normal;          ///< unit, from a to b
+    double gap;           ///< [m], negative where the surfaces overlap
+    Patch patch;          ///< of spheres: what presses here, A of (13) by depth
+    std::int32_t region;  ///< row of the hull's region_names; -1 between floes
+    bool crushes_a;       ///< if ice is crushed here: true where it is a's, false: b's
+    /// Of solids: what presses here, A of (13) [m2]; infinite where they are not crushed.
     double section = std::numeric_limits<double>::infinity();
 
     /// Do solids meet? They have no spheres.
@@ -31,8 +32,8 @@ struct Contact {
 };
 
 /// Gaps that differ by less are equal [m]. Surfaces that rest on each other have gaps of either
-/// sign, which are what the solver and rounding left: without this rounding decides which of them
-/// take part in an impact. Larger values let floes bounce before they touch.
+/// sign, which are what the solver and rounding left. Without this tolerance, rounding decides
+/// which contacts take part in an impact. Larger values let floes bounce before they touch.
 inline constexpr double kSameGap = 1e-6;
 
 /// Do surfaces meet within a step?
