@@ -110,9 +110,9 @@ private:
             if (facing < 0.0) enters = std::max(enters, above / facing);
             if (facing > 0.0) leaves = std::min(leaves, above / facing);
             if (facing == 0.0 && above < 0.0) return;
+            if (enters > std::min(leaves, most_)) return;  // beside the piece, or too far away
         }
-        if (enters <= leaves && enters <= most_)
-            add(at + enters * n_, enters, Met::reference_corner, corner, 0);
+        add(at + enters * n_, enters, Met::reference_corner, corner, 0);
     }
 
     void add(const Vec3& at, double height, Met met, std::size_t first, std::size_t second) {
