@@ -318,7 +318,7 @@ TEST_CASE("an impact goes through floes that touch, whatever the rounding of the
     for (std::size_t k = 1; k <= 4; ++k)
         CHECK(open.scene.bodies.velocity[k].x() ==
               Near(pressed.scene.bodies.velocity[k].x()).margin(1e-9));
-    // those that touched stay together, and momentum and e hold for the first
+    // The floes that touched move as one. The first one parts from them at e times its speed.
     CHECK(open.scene.bodies.velocity[4].x() == Near(0.5 * 1.3 / 4.0).margin(1e-9));
     Row apart(4, 1e-5, 0.5);  // the first meets the second, which meets the third a step later
     REQUIRE(apart.impact().converged);

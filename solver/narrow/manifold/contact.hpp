@@ -16,7 +16,8 @@ namespace ice {
 struct Contact {
     std::int32_t a, b;                ///< bodies, a < b; a = 0 is the ship
     std::int32_t sphere_a, sphere_b;  ///< contact spheres of their shapes; -1 where solids meet
-    /// Names the contact within its pair, from step to step: it begins with its last impulse.
+    /// The same contact of a pair has it in the next step, too. The solver begins with the impulse
+    /// that this contact had in the last step.
     std::uint64_t key;
     Vec3 point;           ///< midway between the surfaces, world axes [m]
     Vec3 normal;          ///< unit, from a to b
@@ -31,9 +32,9 @@ struct Contact {
     bool is_of_solids() const { return sphere_a < 0; }
 };
 
-/// Gaps that differ by less are equal [m]. Surfaces that rest on each other have gaps of either
-/// sign, which are what the solver and rounding left. Without this tolerance, rounding decides
-/// which contacts take part in an impact. Larger values let floes bounce before they touch.
+/// Gaps that differ by less are equal [m]. The solver and rounding leave surfaces that rest on each
+/// other with gaps of either sign. At a tolerance of 0 this sign decides which contacts take part
+/// in an impact. Larger values let floes bounce before they touch.
 inline constexpr double kSameGap = 1e-6;
 
 /// Do surfaces meet within a step?

@@ -124,8 +124,8 @@ void drop_doubles(ContactPolygon& polygon) {
     corners.resize(kept);
 }
 
-// Chooses the corners that carry the load: of two at one place the deeper one, open ones last, and
-// those that span the largest area.
+// Chooses the corners that carry the load. Of two at one place the deeper one stays. Open ones are
+// dropped first. The corners that are left span the largest area.
 void choose_corners(ContactPolygon& polygon) {
     auto& corners = polygon.corners;
     drop_doubles(polygon);
