@@ -143,8 +143,9 @@ void choose_corners(ContactPolygon& polygon) {
 }  // namespace
 
 PairRule pair_rule_of(const Scene& scene, BodyPair pair, const ContactRule& rule) {
-    // with the ship the loads are recorded by its spheres
-    if (rule.normal != NormalRule::surface || pair.a == static_cast<std::int32_t>(kShip))
+    // What the ship crushes is known by its spheres.
+    if (rule.normal != NormalRule::surface ||
+        (rule.crushes && pair.a == static_cast<std::int32_t>(kShip)))
         return PairRule::spheres;
     const Shape &a = scene.shape_of(pair.a), &b = scene.shape_of(pair.b);
     // Only the ship crushes level ice, but contacts of solids would cut the body without parts.
@@ -203,7 +204,7 @@ void make_polygon_contacts(const PairView& view, const ContactRule& rule,
         contact.region = -1;
         contact.crushes_a = crushes_a;
         contact.section = section;
-        if (solids) continue;
+        if (solids && !ship) continue;
         // Crushing and regions need spheres: those nearest to the corner lend share and patch.
         contact.sphere_a = nearest_sphere(view.shape_a, corner.point);
         contact.sphere_b = nearest_sphere(view.shape_b, view.to_b(corner.point));
