@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/geometry/plane_crossing.hpp"
 #include "common/math/ordered_products.hpp"
@@ -263,14 +264,18 @@ void meet_along(AxisKind kind, const Pieces& p, ClippingWork& work, ContactPolyg
         corner.point = ordered_product(p.pose.rotation, corner.point) + p.pose.translation;
 }
 
-// The polygon over the wider face where the pieces overlap as deep over it as along two edges;
-// false where they do not.
+// The polygon over the wider face where its normal is nearly that of the two edges and it has their
+// crossing among its corners; false where it has not.
 bool meet_in_face_of_edges(const Pieces& p, ClippingWork& work, ContactPolygon& out) {
-    if (p.axes.edges >= 0.0) return false;
-    meet_along(widest_face(p.axes), p, work, out);
-    double deepest = 0.0;
+    const AxisKind face = widest_face(p.axes);
+    if (normal_along(face, p.a, p.b, p.pose, p.axes)
+            .dot(normal_along(AxisKind::edges, p.a, p.b, p.pose, p.axes)) <
+        std::cos(PolygonTolerances::kSameAxis))
+        return false;
+    meet_along(face, p, work, out);
+    double deepest = std::numeric_limits<double>::infinity();
     for (const PolygonCorner& corner : out.corners) deepest = std::min(deepest, corner.gap);
-    return std::abs(deepest - p.axes.edges) <= -PolygonTolerances::kFaceShare * p.axes.edges;
+    return deepest <= p.axes.edges + PolygonTolerances::kPrefer;
 }
 
 }  // namespace

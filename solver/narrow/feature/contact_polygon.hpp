@@ -25,11 +25,8 @@ struct PolygonTolerances {
     /// loses corners on its side planes.
     static constexpr double kBesidePlane = 1e-4;
 
-    /// Two edges that overlap are no axis where the deepest corner over a face is as deep as they
-    /// are, to this share [-]. Floes that lie on each other with a small twist would be held in one
-    /// point, another one in each step, and rock deeper and deeper. More takes a face where edges
-    /// cross beside it; less lets floes rock.
-    static constexpr double kFaceShare = 0.1;
+    /// A face takes the place of two edges whose axis differs from its normal by less [rad].
+    static constexpr double kSameAxis = 0.03;
 };
 
 /// One corner of the polygon in which two pieces meet.
