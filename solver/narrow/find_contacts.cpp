@@ -80,7 +80,7 @@ void find_lost(const PairView& view, double apart, double most, FoundBatch::Pair
 
 // The exact axes of two convex floes; early out where they are farther apart than `enough` [m].
 SeparatingAxes axes_of(const PairView& view, double enough) {
-    const SolidPair solids = solids_of(view);
+    const SolidPair solids = solids_of(view, 0.0);
     return find_axes(solids.a, solids.b, solids.pose, enough);
 }
 
@@ -93,10 +93,10 @@ void ContactFinder::begin_batches() {
 
 // Keeps the corners of the polygon in which two solids meet, if they do.
 void ContactFinder::meet(const PairView& view, ContactRule rule, const SeparatingAxes& axes,
-                         double most, Found& found, FoundBatch& batch) {
-    if (axes.widest() > most) return;
-    const SolidPair solids = solids_of(view);
-    find_polygon(solids, axes, most, batch.pair.clipping, batch.pair.polygon);
+                         const Within& within, Found& found, FoundBatch& batch) {
+    if (axes.widest() > within.most) return;
+    const SolidPair solids = solids_of(view, within.step);
+    find_polygon(solids, axes, within.most, batch.pair.clipping, batch.pair.polygon);
     if (!rule.crushes) return keep_polygon(found, batch);
     found.corners.first = batch.corners.size();
     append_pressed(solids, batch.pair.polygon, batch.pair.section, batch.corners);
@@ -147,7 +147,8 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
             case PairRule::parts:
                 return meet_parts(view, most, found_[k], batch);
             case PairRule::solids:
-                return meet(view, rule, axes_of(view, most), most, found_[k], batch);
+                return meet(view, rule, axes_of(view, most), {dt, margin, most}, found_[k],
+                            batch);
             case PairRule::spheres:
                 break;
         }
@@ -188,7 +189,8 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         else if (pair_rule_of(scene, pairs[k], rule) == PairRule::parts)
             meet_parts(PairView(scene, pairs[k]), most, found_[n], batch);
         else
-            meet(PairView(scene, pairs[k]), rule, cache_.axes(k), most, found_[n], batch);
+            meet(PairView(scene, pairs[k]), rule, cache_.axes(k), {dt, margin, most}, found_[n],
+                 batch);
     });
     // Lists are stored by one thread, in the order of the pairs: their places do not depend on the
     // threads.
@@ -294,8 +296,8 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
     if (kind == PairRule::solids) {
         const SeparatingAxes axes = axes_of(view, margin);
         if (axes.widest() <= margin)
-            find_polygon(solids_of(view), axes, margin, found.clipping, found.polygon);
-        if (how.crushes) append_pressed(solids_of(view), found.polygon, found.section, corners);
+            find_polygon(solids_of(view, 0.0), axes, margin, found.clipping, found.polygon);
+        if (how.crushes) append_pressed(solids_of(view, 0.0), found.polygon, found.section, corners);
         if (how.crushes) found.polygon.corners.clear();
     }
     if (kind != PairRule::spheres) return append_polygon();

@@ -82,7 +82,7 @@ private:
     // Empties the threads' results.
     void begin_batches();
     static void meet(const PairView& view, ContactRule rule, const SeparatingAxes& axes,
-                     double most, Found& found, FoundBatch& batch);
+                     const Within& within, Found& found, FoundBatch& batch);
     static void meet_parts(const PairView& view, double most, Found& found, FoundBatch& batch);
     // Contacts of row k from its neighbour list, which is made anew where its skin is used up.
     void find_listed(const Scene& scene, BodyPair pair, std::size_t k, const MotionBounds& motion,

@@ -73,11 +73,33 @@ bool comes_before(const PolygonCorner& l, const PolygonCorner& r) {
 
 // Orders corners by depth. Of equally deep ones corners of a body come before edges that cross side
 // planes, so that rounding does not choose between two of them at one place.
-bool is_deeper(const PolygonCorner& l, const PolygonCorner& r) {
-    const auto gap = [](const PolygonCorner& c) {
-        return c.gap + kSameGap * static_cast<double>(kind_of_corner(c));
+// @param gap_of  of a corner [m]
+template <class Gap>
+bool is_deeper_by(const Gap& gap_of, const PolygonCorner& l, const PolygonCorner& r) {
+    const auto gap = [&](const PolygonCorner& c) {
+        return gap_of(c) + kSameGap * static_cast<double>(kind_of_corner(c));
     };
-    return gap(l) < gap(r) || (gap(l) == gap(r) && comes_before(l, r));
+    const double of_l = gap(l), of_r = gap(r);
+    return of_l < of_r || (of_l == of_r && comes_before(l, r));
+}
+
+bool is_deeper(const PolygonCorner& l, const PolygonCorner& r) {
+    return is_deeper_by([](const PolygonCorner& c) { return c.gap; }, l, r);
+}
+
+// Drops corners that stay open in the step, if nothing hinders the bodies, until no more than a
+// contact's corners are left. One that closes may be the only one on its side.
+void drop_open(const RelativeStep& step, ContactPolygon& polygon) {
+    auto& corners = polygon.corners;
+    const auto least_gap = [&](const PolygonCorner& c) {
+        return c.gap + std::min(ordered_dot(polygon.normal, step.at(c.point)), 0.0);
+    };
+    std::sort(corners.begin(), corners.end(), [&](const PolygonCorner& l, const PolygonCorner& r) {
+        return is_deeper_by(least_gap, l, r);
+    });
+    const double open = std::max(least_gap(corners.front()), 0.0) + kReach;
+    while (corners.size() > kManifoldCorners && least_gap(corners.back()) > open)
+        corners.pop_back();
 }
 
 // Area of the triangle that the polygon loses with corner k, seen along the normal [m2], twice; not
@@ -126,15 +148,11 @@ void drop_doubles(ContactPolygon& polygon) {
 
 // Chooses the corners that carry the load. Of two at one place the deeper one stays. Open ones are
 // dropped first. The corners that are left span the largest area.
-void choose_corners(ContactPolygon& polygon) {
-    auto& corners = polygon.corners;
+void choose_corners(const RelativeStep& step, ContactPolygon& polygon) {
     drop_doubles(polygon);
-    if (corners.size() <= kManifoldCorners) return;
-    std::sort(corners.begin(), corners.end(), is_deeper);
-    while (corners.size() > kManifoldCorners &&
-           corners.back().gap > std::max(corners.front().gap, 0.0) + kReach)
-        corners.pop_back();
-    if (corners.size() <= kManifoldCorners) return;
+    if (polygon.corners.size() <= kManifoldCorners) return;
+    drop_open(step, polygon);
+    if (polygon.corners.size() <= kManifoldCorners) return;
     order_around(polygon);
     drop_inner(polygon);
     reduce_polygon(kManifoldCorners, polygon);
@@ -159,14 +177,14 @@ void find_polygon(const SolidPair& solids, const SeparatingAxes& axes, double mo
                   ClippingWork& work, ContactPolygon& polygon) {
     make_contact_polygon(solids.a, solids.b, solids.pose, axes, IncidentFaces::all, most, work,
                          polygon);
-    choose_corners(polygon);
+    choose_corners(solids.step, polygon);
     std::sort(polygon.corners.begin(), polygon.corners.end(), comes_before);
 }
 
 void append_pressed(const SolidPair& solids, const ContactPolygon& polygon, SectionWork& work,
                     std::vector<MetCorner>& out) {
     if (polygon.corners.empty()) return;
-    const auto& [a, b, pose] = solids;
+    const auto& [a, b, pose, step] = solids;
     const Vec3& n = polygon.normal;
     const PolygonCorner& deepest =
         *std::min_element(polygon.corners.begin(), polygon.corners.end(),
