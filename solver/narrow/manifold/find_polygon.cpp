@@ -210,7 +210,8 @@ void make_polygon_contacts(const PairView& view, const ContactRule& rule,
         Contact& contact = *out++;
         contact.a = view.pair.a;
         contact.b = view.pair.b;
-        contact.sphere_a = contact.sphere_b = -1;
+        contact.sphere_a = ship ? nearest_sphere(view.shape_a, corner.point) : -1;
+        contact.sphere_b = -1;
         // The warm start finds a corner again by the two features that meet in it.
         // No sphere has the first bit, and a deep seat has the second one, too.
         contact.key = std::uint64_t{1} << 63 | corner.id;
@@ -219,14 +220,13 @@ void make_polygon_contacts(const PairView& view, const ContactRule& rule,
         contact.gap = corner.gap;
         contact.patch = Patch{};
         contact.patch.depth = -corner.gap;
-        contact.region = -1;
+        contact.region = ship ? view.shape_a.region.at(contact.sphere_a, normal) : -1;
         contact.crushes_a = crushes_a;
         contact.section = section;
-        if (solids && !ship) continue;
-        // Crushing and regions need spheres: those nearest to the corner lend share and patch.
-        contact.sphere_a = nearest_sphere(view.shape_a, corner.point);
+        if (solids) continue;
+        // Crushing needs spheres: those nearest to the corner lend share and patch.
+        if (!ship) contact.sphere_a = nearest_sphere(view.shape_a, corner.point);
         contact.sphere_b = nearest_sphere(view.shape_b, view.to_b(corner.point));
-        if (ship) contact.region = view.shape_a.region.at(contact.sphere_a, normal);
         // the ice that was crushed there is left out; depth counts from its old surface
         contact.gap += crushed_depth(view, contact.sphere_b, normal);
         contact.patch = ice_patch(view, contact.sphere_b, normal, contact.gap);
