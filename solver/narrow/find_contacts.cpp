@@ -80,7 +80,7 @@ void find_lost(const PairView& view, double apart, double most, FoundBatch::Pair
 
 // The exact axes of two convex floes; early out where they are farther apart than `enough` [m].
 SeparatingAxes axes_of(const PairView& view, double enough) {
-    const SolidPair solids = solids_of(view, 0.0);
+    const SolidPair solids = solids_of(view);
     return find_axes(solids.a, solids.b, solids.pose, enough);
 }
 
@@ -95,8 +95,8 @@ void ContactFinder::begin_batches() {
 void ContactFinder::meet(const PairView& view, ContactRule rule, const SeparatingAxes& axes,
                          const Within& within, Found& found, FoundBatch& batch) {
     if (axes.widest() > within.most) return;
-    const SolidPair solids = solids_of(view, within.step);
-    find_polygon(solids, axes, within.most, batch.pair.clipping, batch.pair.polygon);
+    const SolidPair solids = solids_of(view);
+    find_polygon(solids, axes, within.most, {view, within.step}, batch.pair.clipping, batch.pair.polygon);
     if (!rule.crushes) return keep_polygon(found, batch);
     found.corners.first = batch.corners.size();
     append_pressed(solids, batch.pair.polygon, batch.pair.section, batch.corners);
@@ -296,8 +296,8 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
     if (kind == PairRule::solids) {
         const SeparatingAxes axes = axes_of(view, margin);
         if (axes.widest() <= margin)
-            find_polygon(solids_of(view, 0.0), axes, margin, found.clipping, found.polygon);
-        if (how.crushes) append_pressed(solids_of(view, 0.0), found.polygon, found.section, corners);
+            find_polygon(solids_of(view), axes, margin, {}, found.clipping, found.polygon);
+        if (how.crushes) append_pressed(solids_of(view), found.polygon, found.section, corners);
         if (how.crushes) found.polygon.corners.clear();
     }
     if (kind != PairRule::spheres) return append_polygon();

@@ -161,7 +161,7 @@ TEST_CASE("a side that was crushed at both ends meets a face with both", "[narro
         const RelativePose pose{turned, Vec3(-0.98, 0.0, 0.0)};
         ContactPolygon polygon;
         ClippingWork work;
-        find_polygon({wall, floe, pose}, find_axes(wall, floe, pose, kAll), 0.001, work, polygon);
+        find_polygon({wall, floe, pose}, find_axes(wall, floe, pose, kAll), 0.001, {}, work, polygon);
         REQUIRE(polygon.normal == -Vec3::UnitX());
         REQUIRE(polygon.corners.size() == 4);
         const auto [low, high] = std::minmax_element(
@@ -181,13 +181,13 @@ TEST_CASE("pressed corners come before open ones, and outer before inner ones",
     const RelativePose pose{Mat3::Identity(), Vec3(-0.999, 0.0, 0.0)};
     ContactPolygon polygon;
     ClippingWork work;
-    find_polygon({wall, floe, pose}, find_axes(wall, floe, pose, kAll), 0.005, work, polygon);
+    find_polygon({wall, floe, pose}, find_axes(wall, floe, pose, kAll), 0.005, {}, work, polygon);
     REQUIRE(polygon.corners.size() == 4);
     for (const PolygonCorner& c : polygon.corners) CHECK(c.gap == Near(-1e-3).margin(2e-4));
     // the front of a thin piece that is deep in a face, and not its back
     const ConvexPiece deck = box(Vec3(1, 0.8, 0.3)), chip = box(Vec3(0.5, 0.4, 0.02));
     const RelativePose deep{Mat3::Identity(), Vec3(0, 0, 0.13)};
-    find_polygon({deck, chip, deep}, find_axes(deck, chip, deep, kAll), 0.001, work, polygon);
+    find_polygon({deck, chip, deep}, find_axes(deck, chip, deep, kAll), 0.001, {}, work, polygon);
     REQUIRE(polygon.corners.size() == 4);
     for (const PolygonCorner& c : polygon.corners) CHECK(c.gap == Near(-0.03).epsilon(1e-9));
 }

@@ -2,6 +2,8 @@
 #include "solver/narrow/feature/face_corners.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <limits>
 
 #include "common/geometry/plane_crossing.hpp"
@@ -39,12 +41,18 @@ public:
         work.places.clear();
         work.heights.clear();
         work.beyond.clear();
+        work.outside.clear();
         work.turned.assign(incident.corners.size(), 0);
         for (std::size_t k = 0; k < incident.corners.size(); ++k) {
             const Vec3 at = ordered_product(pose.rotation, incident.corners[k]) + pose.translation;
             work.places.push_back(at);
             work.heights.push_back(ordered_dot(n_, at) - offset_);
-            for (const SidePlane& side : sides_) work.beyond.push_back(beyond(side, at));
+            std::uint64_t outside = 0;
+            for (std::size_t s = 0; s < sides_.size(); ++s) {
+                work.beyond.push_back(beyond(sides_[s], at));
+                outside |= static_cast<std::uint64_t>(work.beyond.back() > 0.0) << s;
+            }
+            work.outside.push_back(outside);
         }
     }
 
@@ -58,7 +66,7 @@ public:
             add_crossings(e);
         }
         for (std::size_t k = 0; k < work_.places.size(); ++k)
-            if (work_.turned[k] && work_.heights[k] <= most_ && is_over_face(k))
+            if (work_.turned[k] && work_.heights[k] <= most_ && work_.outside[k] == 0)
                 add(work_.places[k], work_.heights[k], Met::incident_corner, k, 0);
         for (const std::int32_t corner : loop_) add_entry(static_cast<std::size_t>(corner));
     }
@@ -73,20 +81,17 @@ private:
     double beyond(std::size_t corner, std::size_t side) const {
         return work_.beyond[corner * sides_.size() + side];
     }
-    bool is_over_face(std::size_t corner) const {
-        for (std::size_t s = 0; s < sides_.size(); ++s)
-            if (beyond(corner, s) > 0.0) return false;
-        return true;
-    }
 
     // Where an edge of the incident piece enters or leaves the space over the face.
     void add_crossings(std::size_t e) {
         const auto p = static_cast<std::size_t>(incident_.edges[e].begin),
                    q = static_cast<std::size_t>(incident_.edges[e].end);
-        if (std::min(work_.heights[p], work_.heights[q]) > most_) return;
-        for (std::size_t s = 0; s < sides_.size(); ++s) {
+        const std::uint64_t of_p = work_.outside[p], of_q = work_.outside[q];
+        // outside of one side plane as a whole, or too high
+        if ((of_p & of_q) != 0 || std::min(work_.heights[p], work_.heights[q]) > most_) return;
+        for (std::uint64_t crossed = of_p ^ of_q; crossed != 0; crossed &= crossed - 1) {
+            const auto s = static_cast<std::size_t>(std::countr_zero(crossed));
             const double hp = beyond(p, s), hq = beyond(q, s);
-            if ((hp <= 0.0) == (hq <= 0.0)) continue;
             const Vec3 at = plane_crossing(work_.places[p], hp, work_.places[q], hq);
             const double height = ordered_dot(n_, at) - offset_;
             if (height <= most_ && is_within_others(at, s))
@@ -107,9 +112,11 @@ private:
         for (std::size_t k = 0; k < incident_.plane_count(); ++k) {
             const double facing = work_.facing[k],
                          above = incident_.offsets[k] - ordered_dot(incident_.normals[k], from);
-            if (facing < 0.0) enters = std::max(enters, above / facing);
-            if (facing > 0.0) leaves = std::min(leaves, above / facing);
             if (facing == 0.0 && above < 0.0) return;
+            if (facing == 0.0) continue;
+            const double at_plane = above / facing;
+            if (facing < 0.0) enters = std::max(enters, at_plane);
+            else leaves = std::min(leaves, at_plane);
             if (enters > std::min(leaves, most_)) return;  // beside the piece, or too far away
         }
         add(at + enters * n_, enters, Met::reference_corner, corner, 0);

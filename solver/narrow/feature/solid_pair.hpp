@@ -24,26 +24,42 @@ struct RelativeStep {
     Vec3 at(const Vec3& point) const { return shift + turn.cross(point); }
 };
 
+/// The motion of a pair in the step; few pairs need it.
+class PairStep {
+public:
+    PairStep() = default;  ///< without motion
+    /// @param view  referred to, not copied @param dt  time step [s]
+    PairStep(const PairView& view, double dt) : view_(&view), dt_(dt) {}
+
+    RelativeStep relative() const {
+        if (view_ == nullptr) return {};
+        const Bodies& bodies = view_->scene.bodies;
+        const auto [a, b] = view_->pair;
+        // what a velocity in the world's axes gives in the step, in a's axes
+        const auto in_step = [&](const Vec3& velocity) {
+            return Vec3(dt_ * ordered_transposed(bodies.rotation[a], velocity));
+        };
+        const Vec3 turn_b = in_step(bodies.angular_velocity[b]),
+                   shift = in_step(bodies.velocity[b] - bodies.velocity[a]);
+        return {shift - turn_b.cross(view_->translation_ab),
+                turn_b - in_step(bodies.angular_velocity[a])};
+    }
+
+private:
+    const PairView* view_ = nullptr;
+    double dt_ = 0.0;
+};
+
 /// Two convex solids and where they are.
 struct SolidPair {
     const ConvexPiece &a, &b;
     RelativePose pose;
-    RelativeStep step = {};
 };
-/// Of two bodies, without the ice that floes have crushed. @param dt  time step [s]
-inline SolidPair solids_of(const PairView& view, double dt) {
-    const Bodies& bodies = view.scene.bodies;
-    const auto [a, b] = view.pair;
-    const Mat3& axes = bodies.rotation[a];
-    const Vec3 turn = dt * ordered_transposed(
-                               axes, Vec3(bodies.angular_velocity[b] - bodies.angular_velocity[a]));
-    const Vec3 shift =
-        dt * ordered_transposed(axes, Vec3(bodies.velocity[b] - bodies.velocity[a])) -
-        dt * ordered_transposed(axes, bodies.angular_velocity[b]).cross(view.translation_ab);
-    return {view.scene.solid_of(a),
-            view.scene.solid_of(b),
-            {view.rotation_ab, view.translation_ab},
-            {shift, turn}};
+/// Of two bodies, without the ice that floes have crushed.
+inline SolidPair solids_of(const PairView& view) {
+    return {view.scene.solid_of(view.pair.a),
+            view.scene.solid_of(view.pair.b),
+            {view.rotation_ab, view.translation_ab}};
 }
 
 }  // namespace ice

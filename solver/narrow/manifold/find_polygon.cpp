@@ -148,10 +148,10 @@ void drop_doubles(ContactPolygon& polygon) {
 
 // Chooses the corners that carry the load. Of two at one place the deeper one stays. Open ones are
 // dropped first. The corners that are left span the largest area.
-void choose_corners(const RelativeStep& step, ContactPolygon& polygon) {
+void choose_corners(const PairStep& step, ContactPolygon& polygon) {
     drop_doubles(polygon);
     if (polygon.corners.size() <= kManifoldCorners) return;
-    drop_open(step, polygon);
+    drop_open(step.relative(), polygon);
     if (polygon.corners.size() <= kManifoldCorners) return;
     order_around(polygon);
     drop_inner(polygon);
@@ -174,17 +174,17 @@ PairRule pair_rule_of(const Scene& scene, BodyPair pair, const ContactRule& rule
 }
 
 void find_polygon(const SolidPair& solids, const SeparatingAxes& axes, double most,
-                  ClippingWork& work, ContactPolygon& polygon) {
+                  const PairStep& step, ClippingWork& work, ContactPolygon& polygon) {
     make_contact_polygon(solids.a, solids.b, solids.pose, axes, IncidentFaces::all, most, work,
                          polygon);
-    choose_corners(solids.step, polygon);
+    choose_corners(step, polygon);
     std::sort(polygon.corners.begin(), polygon.corners.end(), comes_before);
 }
 
 void append_pressed(const SolidPair& solids, const ContactPolygon& polygon, SectionWork& work,
                     std::vector<MetCorner>& out) {
     if (polygon.corners.empty()) return;
-    const auto& [a, b, pose, step] = solids;
+    const auto& [a, b, pose] = solids;
     const Vec3& n = polygon.normal;
     const PolygonCorner& deepest =
         *std::min_element(polygon.corners.begin(), polygon.corners.end(),
@@ -248,7 +248,7 @@ void find_lost_polygon(const PairView& view, std::span<const Candidate> found, d
     const double crushed =
         view.scene.crushed.deepest_of(view.pair.a) + view.scene.crushed.deepest_of(view.pair.b);
     if (axes.widest() + crushed + lost_slack(view) < least)
-        find_polygon(solids, axes, most, work, polygon);
+        find_polygon(solids, axes, most, {}, work, polygon);
 }
 
 }  // namespace ice

@@ -20,9 +20,11 @@ PairRule pair_rule_of(const Scene& scene, BodyPair pair, const ContactRule& rule
 
 /// Finds the corners within `most` [m], at most four; none where every gap is wider.
 /// @param axes  of the two solids, all kinds
+/// @param step  corners that are open at its begin and end, if nothing hinders the bodies, are the
+///              first to be left out
 /// @param polygon  its old content is dropped, its memory kept
 void find_polygon(const SolidPair& solids, const SeparatingAxes& axes, double most,
-                  ClippingWork& work, ContactPolygon& polygon);
+                  const PairStep& step, ClippingWork& work, ContactPolygon& polygon);
 
 /// Appends the corners of a polygon that presses on ice that can be crushed. Corners that touch
 /// share the section of the two solids (section_area) equally; corners that are open have a share

@@ -81,7 +81,7 @@ void PairCache::set_clearances(Row& row, BodyPair pair, const MotionBounds& moti
 
 double PairCache::separation_of_solids(Row& row, const PairView& view, double enough) {
     if (!is_convex_pair(view)) return separation(view, enough, row.axis);  // in several parts
-    const auto& [a, b, pose, step] = solids_of(view, 0.0);
+    const auto& [a, b, pose] = solids_of(view);
     // the plane that separated them last mostly still does: one plane instead of all
     const SeparatingAxes& last = row.axes;
     const bool of_a = last.plane_b < 0 || last.face_a >= last.face_b;
