@@ -25,7 +25,11 @@ struct PolygonTolerances {
     /// loses corners on its side planes.
     static constexpr double kBesidePlane = 1e-4;
 
-    /// A face takes the place of two edges whose axis differs from its normal by less [rad].
+    /// A face takes the place of two edges if its normal differs from their axis by less [rad]: the
+    /// two edges have one point, the face has all that may meet in the step. Floes that lie on each
+    /// other with a small twist would be held in one point, another one in each step, and rock
+    /// deeper and deeper. More gives contacts a normal along which edges slide into each other;
+    /// less lets floes rock, and lets faces meet edges a step late.
     static constexpr double kSameAxis = 0.03;
 };
 
@@ -88,11 +92,12 @@ enum class IncidentFaces {
 /// The axis with the widest gap decides. Where it is a face's, that face is the reference, and the
 /// corners are those of the other piece's surface over it (IncidentFaces). Two edges meet in one
 /// point, midway between them where they are nearest. With IncidentFaces::all a face is the
-/// reference in their place where pieces overlap over it as deep as along the edges, by
-/// PolygonTolerances::kFaceShare. A face that has not touched yet may be past a side plane by its
-/// gap: it may come from beside. An axis that is preferred by PolygonTolerances::kPrefer may have
-/// no corner, because its face is beside the contact; then the widest one is taken. No corner is
-/// deeper than the widest axis says. No corners where every gap exceeds `most`.
+/// reference in their place if its normal is nearly theirs (PolygonTolerances::kSameAxis) and the
+/// pieces are as deep, or as near, over it. A face that has not touched yet may be past a side
+/// plane by its gap: it may come from beside. An axis that is preferred by
+/// PolygonTolerances::kPrefer may have no corner, because its face is beside the contact; then the
+/// widest one is taken. No corner is deeper than the widest axis says. No corners where every gap
+/// exceeds `most`.
 ///
 /// Source of the clipping: Sutherland and Hodgman, Reentrant polygon clipping, CACM 17, 1974.
 /// @param axes  find_axes() of these pieces and this pose, all kinds
