@@ -44,13 +44,15 @@ TEST_CASE("one ship and one floe part as Newton's restitution says", "[ship][con
 TEST_CASE("an oblique hit turns a ship that is free to turn", "[ship][contact]") {
     World w = box_ship(3000.0, 2.0, {surge, sway, yaw});
     w.parameters.contact.restitution = 0.5;
-    // one column of spheres
+    // the floe's upright edge that is nearest to the ship is 5 mm before the bow
     const auto box = add_shape(w, make_box_set(Vec3(1, 0.2, 1), 0.1, 0.4));
-    add_floe(w.scene, box, 900.0, Vec3(2.505, 0.7, 0), Quaternion::Identity(), 0, false);
+    const Quaternion turned(Eigen::AngleAxisd(0.3, Vec3::UnitZ()));
+    const Vec3 edge = turned * Vec3(-0.5, 0.1, 0.0);
+    add_floe(w.scene, box, 900.0, Vec3(2.005, 0.7, 0) - edge, turned, 0, false);
     const double m_f = w.scene.bodies.mass[1];
     const double spin_f = w.scene.bodies.inertia(1)(2, 2);
     step(w);
-    // pairs of contacts above and below the middle, at one place along y
+    // contacts at the upper and at the lower end of the edge
     double arm = 0.0, arm_f = 0.0;
     for (const Constraint& c : w.constraints) {
         if (c.total_normal() == 0.0) continue;
@@ -58,7 +60,8 @@ TEST_CASE("an oblique hit turns a ship that is free to turn", "[ship][contact]")
         arm = c.arm_a.y();
         arm_f = c.arm_b.y();
     }
-    REQUIRE(arm == Near(0.7).margin(0.15));
+    REQUIRE(arm == Near(0.7).epsilon(1e-9));
+    REQUIRE(arm_f == Near(edge.y()).epsilon(1e-9));
     const double inertia = 3000.0 * 1.5 * 1.5;
     const double k = 1.0 / m_f + 1.0 / 3000.0 + arm * arm / inertia + arm_f * arm_f / spin_f;
     const double impulse = 1.5 / k;
