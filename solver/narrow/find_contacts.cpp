@@ -96,7 +96,8 @@ void ContactFinder::meet(const PairView& view, ContactRule rule, const Separatin
                          const Within& within, Found& found, FoundBatch& batch) {
     if (axes.widest() > within.most) return;
     const SolidPair solids = solids_of(view);
-    find_polygon(solids, axes, within.most, {view, within.step}, batch.pair.clipping, batch.pair.polygon);
+    find_polygon(solids, axes, within.most, {view, within.step}, batch.pair.clipping,
+                 batch.pair.polygon);
     if (!rule.crushes) return keep_polygon(found, batch);
     found.corners.first = batch.corners.size();
     append_pressed(solids, batch.pair.polygon, batch.pair.section, batch.corners);
@@ -147,8 +148,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
             case PairRule::parts:
                 return meet_parts(view, most, found_[k], batch);
             case PairRule::solids:
-                return meet(view, rule, axes_of(view, most), {dt, margin, most}, found_[k],
-                            batch);
+                return meet(view, rule, axes_of(view, most), {dt, margin, most}, found_[k], batch);
             case PairRule::spheres:
                 break;
         }

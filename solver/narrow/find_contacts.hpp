@@ -28,13 +28,14 @@ namespace ice {
 /// that meet in a convex edge only the one with the smaller penetration (reduce_manifold). So a
 /// face has as many contacts as incident spheres, not as many as pairs of spheres.
 ///
-/// Convex floes meet as solids instead: their contacts are the corners of the polygon in which they
-/// meet along their separating axis (contact_polygon), at most four. Pieces of level ice do so,
-/// too: each convex part of one meets each part of the other (find_part_polygons).
+/// Convex floes, and in rigid ice a convex hull, meet as solids instead: their contacts are the
+/// corners of the polygon in which they meet along their separating axis (contact_polygon), at most
+/// four. Pieces of level ice do so, too: each convex part of one meets each part of the other
+/// (find_part_polygons).
 ///
-/// A convex hull and a convex floe that overlap deeper than any contact of their spheres meet in
-/// that polygon, too; of other solids each seat that lies so deep in the other one is a contact
-/// (find_deep_seats).
+/// A convex hull and a convex floe that can be crushed meet in that polygon, too, if they overlap
+/// deeper than any contact of their spheres; of other solids each seat that lies so deep in the
+/// other one is a contact (find_deep_seats).
 ///
 /// Bodies that are apart (separation) by more than the margin have none.
 ///

@@ -161,7 +161,8 @@ TEST_CASE("a side that was crushed at both ends meets a face with both", "[narro
         const RelativePose pose{turned, Vec3(-0.98, 0.0, 0.0)};
         ContactPolygon polygon;
         ClippingWork work;
-        find_polygon({wall, floe, pose}, find_axes(wall, floe, pose, kAll), 0.001, {}, work, polygon);
+        find_polygon({wall, floe, pose}, find_axes(wall, floe, pose, kAll), 0.001, {}, work,
+                     polygon);
         REQUIRE(polygon.normal == -Vec3::UnitX());
         REQUIRE(polygon.corners.size() == 4);
         const auto [low, high] = std::minmax_element(

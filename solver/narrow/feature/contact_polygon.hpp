@@ -65,8 +65,8 @@ struct FaceCornersWork {
     std::vector<double> heights;  ///< of these over the face [m]
     std::vector<double> beyond;   ///< how far they are beyond each side plane, by corner [m]
     std::vector<std::uint64_t> outside;  ///< the side planes that a corner is beyond, as bits
-    std::vector<double> facing;   ///< cosine of each incident plane and the face's normal [-]
-    std::vector<char> turned;     ///< by incident corner: is one of its planes turned to the face?
+    std::vector<double> facing;  ///< cosine of each incident plane and the face's normal [-]
+    std::vector<char> turned;    ///< by incident corner: is one of its planes turned to the face?
 };
 
 /// Work memory of make_contact_polygon, which keeps its capacity between pairs.

@@ -115,8 +115,10 @@ private:
             if (facing == 0.0 && above < 0.0) return;
             if (facing == 0.0) continue;
             const double at_plane = above / facing;
-            if (facing < 0.0) enters = std::max(enters, at_plane);
-            else leaves = std::min(leaves, at_plane);
+            if (facing < 0.0)
+                enters = std::max(enters, at_plane);
+            else
+                leaves = std::min(leaves, at_plane);
             if (enters > std::min(leaves, most_)) return;  // beside the piece, or too far away
         }
         add(at + enters * n_, enters, Met::reference_corner, corner, 0);

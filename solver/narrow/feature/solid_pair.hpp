@@ -10,8 +10,9 @@ namespace ice {
 
 /// How a pair's contacts are found.
 enum class PairRule {
-    spheres,  ///< by the contact spheres: pairs with the ship or with a floe that is not convex
-    solids,   ///< two convex floes: the corners of the polygon in which they meet
+    spheres,  ///< by the contact spheres: pairs that are none of the following
+    solids,   ///< two convex floes, in rigid ice also a convex hull: the corners of the polygon in
+              ///< which they meet
     parts,    ///< pieces of level ice, which only the ship crushes: as solids, part by part
 };
 

@@ -15,7 +15,8 @@ namespace ice {
 /// (a, b), within a pair by place (ContactFinder): results depend on that order.
 struct Contact {
     std::int32_t a, b;                ///< bodies, a < b; a = 0 is the ship
-    std::int32_t sphere_a, sphere_b;  ///< contact spheres of their shapes; -1 where solids meet
+    std::int32_t sphere_a, sphere_b;  ///< contact spheres of their shapes; -1 where solids meet,
+                                      ///< but for the ship's, which records the load
     /// The same contact of a pair has it in the next step, too. The solver begins with the impulse
     /// that this contact had in the last step.
     std::uint64_t key;
@@ -28,8 +29,8 @@ struct Contact {
     /// Of solids: what presses here, A of (13) [m2]; infinite where they are not crushed.
     double section = std::numeric_limits<double>::infinity();
 
-    /// Do solids meet? They have no spheres.
-    bool is_of_solids() const { return sphere_a < 0; }
+    /// Do solids meet? Ice that meets as a solid has no sphere.
+    bool is_of_solids() const { return sphere_b < 0; }
 };
 
 /// Gaps that differ by less are equal [m]. The solver and rounding leave surfaces that rest on each

@@ -6,7 +6,7 @@
 namespace ice {
 
 /// How contacts are found: where their normals come from, and whether ice can be crushed. Rigid ice
-/// needs no shares of the surface, so that convex floes meet in polygons.
+/// needs no shares of the surface: a convex hull and convex floes then meet as solids.
 struct ContactRule {
     NormalRule normal;
     bool crushes = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Contacts from the polygon of two convex solids: of two floes the only contacts; of a floe so
-/// deep in the hull that their spheres have passed each other, additional ones.
+/// Contacts from the polygon of two convex solids: of two floes, or a hull and rigid ice, the only
+/// contacts; of a floe that the hull crushes, so deep that their spheres have passed each other,
+/// additional ones.
 #pragma once
 
 #include <span>
@@ -34,8 +35,9 @@ void find_polygon(const SolidPair& solids, const SeparatingAxes& axes, double mo
 void append_pressed(const SolidPair& solids, const ContactPolygon& polygon, SectionWork& work,
                     std::vector<MetCorner>& out);
 
-/// Makes contacts of corners, in their order. Those of solids have no spheres; the others have the
-/// spheres nearest to them, with their shares, b's ice being crushed.
+/// Makes contacts of corners, in their order. Of solids only the ship has a sphere, the nearest
+/// one, which records the load. The others have the spheres nearest to them, with their shares, b's ice
+/// being crushed.
 /// @param out  room for as many
 void make_polygon_contacts(const PairView& view, const ContactRule& rule,
                            std::span<const MetCorner> corners, Contact* out);
