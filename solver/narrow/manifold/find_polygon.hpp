@@ -36,8 +36,8 @@ void append_pressed(const SolidPair& solids, const ContactPolygon& polygon, Sect
                     std::vector<MetCorner>& out);
 
 /// Makes contacts of corners, in their order. Of solids only the ship has a sphere, the nearest
-/// one, which records the load. The others have the spheres nearest to them, with their shares, b's ice
-/// being crushed.
+/// one, which records the load. The others have the spheres nearest to them, with their shares,
+/// b's ice being crushed.
 /// @param out  room for as many
 void make_polygon_contacts(const PairView& view, const ContactRule& rule,
                            std::span<const MetCorner> corners, Contact* out);
