@@ -188,8 +188,8 @@ LoadMap make_load_map(const RunData& run, double from) {
     // Radius [m]: 1.5 times the spheres' distance, or 1 % of the ship's length where spheres are
     // finer. A larger one blurs the map, a smaller one shows single spheres; the integral stays the
     // same.
-    // A force acts on a sphere: spread over less than the spheres' distance the map would show the
-    // spheres.
+    // A force is recorded for a sphere: spread over less than the spheres' distance the map would
+    // show the spheres.
     map.radius = std::max(1.5 * sphere_spacing(hull, area), 0.01 * box.sizes().x());
     map.mesh = refine_mesh(views::simplify_mesh(hull.mesh, kMostTriangles), map.radius,
                            2 * kMostTriangles);

@@ -78,7 +78,7 @@ void find_lost(const PairView& view, double apart, double most, FoundBatch::Pair
     find_deep_seats(view, pair.spheres, pair.candidates, pair.seats);
 }
 
-// The exact axes of two convex floes; early out where they are farther apart than `enough` [m].
+// The exact axes of two convex solids; early out where they are farther apart than `enough` [m].
 SeparatingAxes axes_of(const PairView& view, double enough) {
     const SolidPair solids = solids_of(view);
     return find_axes(solids.a, solids.b, solids.pose, enough);

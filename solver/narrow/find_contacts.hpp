@@ -107,7 +107,8 @@ private:
 namespace reference {
 /// The contacts of one pair by testing every sphere with every other: the definition for tests.
 /// measure_gap, check_depths, reduce_manifold and find_deep_seats are the finder's own: this proves
-/// its search, not the contact rule. @param margin  largest gap of a contact [m]
+/// its search, not the contact rule. Without motion: of solids that move it may keep other corners.
+/// @param margin  largest gap of a contact [m]
 void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double margin,
                    std::vector<Contact>& out);
 }  // namespace reference

@@ -137,8 +137,16 @@ void warn_of_spacing(const World& w, std::vector<Warning>& warnings) {
 }
 
 // The hull between the ice's lower side and the water line, where no sphere fits.
+// Do ship and floes meet as solids, without the hull's spheres?
+bool meet_as_solids(const World& w) {
+    const std::vector<Shape>& shapes = w.scene.shapes;
+    return w.parameters.normal == NormalRule::surface && w.parameters.contact.is_rigid() &&
+           std::none_of(shapes.begin(), shapes.end(),
+                        [](const Shape& shape) { return shape.convex.empty(); });
+}
+
 void warn_of_unfelt_hull(const World& w, std::vector<Warning>& warnings) {
-    if (w.scene.dimension != 3) return;
+    if (w.scene.dimension != 3 || meet_as_solids(w)) return;
     // how deep any ice floats: below it the hull meets none at the start
     double low = 0.0;
     for (std::size_t i = 1; i < w.scene.bodies.size(); ++i)

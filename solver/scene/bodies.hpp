@@ -138,8 +138,8 @@ struct Scene {
     const Shape& shape_of(std::int32_t body) const {
         return shapes[static_cast<std::size_t>(bodies.shape[static_cast<std::size_t>(body)])];
     }
-    /// The solid of a convex floe without the ice that other floes have crushed, body axes; empty
-    /// where the floe is not convex.
+    /// The solid of a convex body without the ice that other floes have crushed, body axes; empty
+    /// where the body is not convex.
     const ConvexPiece& solid_of(std::int32_t body) const {
         const ConvexPiece* crushed_solid = crushed_solids.solid_of(body);
         return crushed_solid ? *crushed_solid : shape_of(body).convex;

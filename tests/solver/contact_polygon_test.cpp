@@ -9,7 +9,9 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <tuple>
 
+#include "solver/integrate/rotation.hpp"
 #include "solver/narrow/feature/nearest_sphere.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "solver/narrow/manifold/find_polygon.hpp"
@@ -328,6 +330,40 @@ TEST_CASE("of more than four corners the ones that stay open in the step are lef
     CHECK((right > 1.9) == falls);
 }
 
+TEST_CASE("the motion of a pair in a step is that of its points", "[narrow][property]") {
+    test::Dice dice{std::mt19937(11)};
+    const double dt = 0.02, h = 1e-7;
+    for (int k = 0; k < 20; ++k) {
+        World w = two_boxes(Vec3(4, 4, 1), 0.25, 0.7, Vec3(3, 2, 1));
+        Bodies& b = w.scene.bodies;
+        b.ship.free = k % 2 == 0;  // its velocity is that of its centre of gravity
+        if (b.ship.free) b.ship.centre = 3.0 * dice.vector();
+        for (std::size_t i = 0; i < 2; ++i) {
+            b.position[i] = 5.0 * dice.vector();
+            b.orientation[i] = exponential_map(dice.vector());
+            b.rotation[i] = b.orientation[i].toRotationMatrix();
+            b.velocity[i] = dice.vector();
+            b.angular_velocity[i] = dice.vector();
+        }
+        const Vec3 point = 2.0 * dice.vector();  // in the ship's axes
+        const PairView view(w.scene, {0, 1});
+        const Vec3 got = PairStep(view, dt).relative().at(point);
+        // both bodies a little later, and the place of b's point in the ship's axes then
+        Vec3 position[2];
+        Mat3 rotation[2];
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Mat3 turn = exponential_map(h * b.angular_velocity[i]).toRotationMatrix();
+            const Vec3 lever = -b.arm(static_cast<std::int32_t>(i), b.position[i]);
+            position[i] = b.position[i] + lever + h * b.velocity[i] - turn * lever;
+            rotation[i] = turn * b.rotation[i];
+        }
+        const Vec3 of_b = view.to_b(point);
+        const Vec3 later =
+            rotation[0].transpose() * (rotation[1] * of_b + position[1] - position[0]);
+        CHECK((got - dt / h * (later - point)).norm() < tolerance(1e-6));
+    }
+}
+
 TEST_CASE("in rigid ice a convex hull meets convex floes as solids, and its spheres have the loads",
           "[narrow][analytic]") {
     World w = test::plate_world(test::empty_space(0.01), Vec3(4, 2, 1), 0.25, 0.5, -0.5);
@@ -355,6 +391,19 @@ TEST_CASE("the nearest sphere is that, and of equals the one that mirror images 
     const Shape shape = build_shape(test::make_box_set(Vec3(2, 1, 0.5), 0.125, 0.25), true);
     for (std::size_t k = 0; k < shape.center.size(); ++k)
         CHECK(nearest_sphere(shape, shape.center[k]) == static_cast<std::int32_t>(k));
+    // several clusters of spheres, points inside and outside
+    const Shape large = build_shape(test::make_box_set(Vec3(8, 4, 1), 0.125, 0.25), true);
+    REQUIRE(large.center.size() > 1000);
+    test::Dice dice{std::mt19937(5)};
+    for (int k = 0; k < 500; ++k) {
+        const Vec3 at = dice.vector().cwiseProduct(Vec3(6, 3, 1));
+        auto least = std::tuple(kAll, std::int32_t{0}, std::int32_t{0});
+        for (std::size_t row = 0; row < large.center.size(); ++row)
+            least =
+                std::min(least, std::tuple((large.center[row] - at).squaredNorm(),
+                                           large.mirror_rank[row], static_cast<std::int32_t>(row)));
+        REQUIRE(nearest_sphere(large, at) == std::get<2>(least));
+    }
     const auto port = nearest_sphere(shape, Vec3(0.9, 0.4, 0.01)),
                starboard = nearest_sphere(shape, Vec3(0.9, -0.4, 0.01));
     CHECK(shape.mirror_rank[static_cast<std::size_t>(port)] ==

@@ -21,12 +21,14 @@ struct Pressed {
 };
 
 // A floe under the lower face of a plate that turns the bow up by `slope`; the ship moves at 1 m/s.
+// Convex solids meet as such in rigid ice, and by their spheres in ice that can be crushed.
 Pressed press(double slope, double hull_radius, double hull_spacing, double floe_radius,
-              NormalRule rule, double from, double to) {
+              ContactRule rule, double from, double to) {
     Case p = test::empty_space(0.01);
+    if (rule.crushes) p.contact.crushing_pressure = 1e9;  // so high that it crushes nothing
     p.gravity = 9.81;
     p.buoyancy = BuoyancyModel::distributed;
-    p.normal = rule;
+    p.normal = rule.normal;
     p.contact.friction_ship_ice = 0.1;
     p.contact.restitution = 0.3;
     p.contact.iterations = 30;
@@ -70,9 +72,10 @@ TEST_CASE("a floe under a flat hull presses with its buoyancy and drags with mu 
     const auto [hull_radius, floe_radius] = GENERATE(std::pair(0.1, 0.05), std::pair(0.1, 0.025),
                                                      std::pair(0.05, 0.05), std::pair(0.05, 0.025));
     const double spacing = hull_radius * GENERATE(0.5, 1.0, 2.0);
-    CAPTURE(hull_radius, spacing, floe_radius, slope);
-    const Pressed got =
-        press(kDegree * slope, hull_radius, spacing, floe_radius, NormalRule::surface, 0.3, 1.3);
+    const bool by_spheres = GENERATE(true, false);
+    CAPTURE(hull_radius, spacing, floe_radius, slope, by_spheres);
+    const Pressed got = press(kDegree * slope, hull_radius, spacing, floe_radius,
+                              {NormalRule::surface, by_spheres}, 0.3, 1.3);
     const Vec3 down = Eigen::AngleAxisd(-kDegree * slope, Vec3::UnitY()) * Vec3(0, 0, -1);
     test::validate({fmt::format("floe under a flat hull at {:g} degrees: normal force", slope), "N",
                     kPress * std::cos(kDegree * slope), got.normal.norm(),
@@ -93,7 +96,7 @@ TEST_CASE("from centre to centre the same hull is rough: the paper's rule, besid
           "[validation]") {
     // the floe is as heavy as before, but rides over bumps: the drag is no longer 0.1 of that
     const double spacing = GENERATE(0.05, 0.1, 0.2);
-    const Pressed got = press(0.0, 0.1, spacing, 0.05, NormalRule::centres, 0.3, 1.3);
+    const Pressed got = press(0.0, 0.1, spacing, 0.05, {NormalRule::centres, false}, 0.3, 1.3);
     const double drag = (got.normal + got.friction).x() / kPress;
     test::show({fmt::format("the same hull, level, `normal = \"centres\"`, spheres {:g} m apart: "
                             "drag over buoyancy",

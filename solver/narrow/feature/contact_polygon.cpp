@@ -264,14 +264,13 @@ void meet_along(AxisKind kind, const Pieces& p, ClippingWork& work, ContactPolyg
         corner.point = ordered_product(p.pose.rotation, corner.point) + p.pose.translation;
 }
 
-// The polygon over the wider face where its normal is nearly that of the two edges and it has their
-// crossing among its corners; false where it has not.
+// The polygon over the wider face where its normal is nearly the axis of the two edges and one of
+// its corners is as near as their crossing; false where there is no such corner.
 bool meet_in_face_of_edges(const Pieces& p, ClippingWork& work, ContactPolygon& out) {
     const AxisKind face = widest_face(p.axes);
-    if (normal_along(face, p.a, p.b, p.pose, p.axes)
-            .dot(normal_along(AxisKind::edges, p.a, p.b, p.pose, p.axes)) <
-        std::cos(PolygonTolerances::kSameAxis))
-        return false;
+    const double facing = ordered_dot(normal_along(face, p.a, p.b, p.pose, p.axes),
+                                      normal_along(AxisKind::edges, p.a, p.b, p.pose, p.axes));
+    if (facing < std::cos(PolygonTolerances::kSameAxis)) return false;
     meet_along(face, p, work, out);
     double deepest = std::numeric_limits<double>::infinity();
     for (const PolygonCorner& corner : out.corners) deepest = std::min(deepest, corner.gap);

@@ -14,7 +14,8 @@ namespace ice {
 namespace {
 
 // What a corner is, in its id: 2 bits for the kind of axis, 6 for the face, 2 for this, and 22 for
-// the numbers of the features. Euler's formula allows a piece twice as many edges as corners.
+// the numbers of the features. Each side plane of a face has a bit. Euler's formula allows a piece
+// twice as many edges as corners.
 static_assert(ConvexPiece::kMost <= 64);
 
 class FaceCorners {

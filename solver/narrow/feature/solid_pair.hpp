@@ -18,10 +18,10 @@ enum class PairRule {
 
 /// How b moves relative to a in a step, if nothing hinders the two; a's axes.
 struct RelativeStep {
-    Vec3 shift = Vec3::Zero();  ///< of the point of b that is in a's origin [m]
+    Vec3 shift = Vec3::Zero();  ///< of b's point in a's origin [m]
     Vec3 turn = Vec3::Zero();   ///< [rad]
 
-    /// Of the point of b that is there [m].
+    /// Displacement of b's point at `point`, relative to a [m].
     Vec3 at(const Vec3& point) const { return shift + turn.cross(point); }
 };
 
@@ -36,14 +36,17 @@ public:
         if (view_ == nullptr) return {};
         const Bodies& bodies = view_->scene.bodies;
         const auto [a, b] = view_->pair;
+        const Vec3& origin = bodies.position[a];
+        const auto velocity_there = [&](std::int32_t i) {
+            return Vec3(bodies.velocity[i] +
+                        bodies.angular_velocity[i].cross(bodies.arm(i, origin)));
+        };
         // what a velocity in the world's axes gives in the step, in a's axes
         const auto in_step = [&](const Vec3& velocity) {
             return Vec3(dt_ * ordered_transposed(bodies.rotation[a], velocity));
         };
-        const Vec3 turn_b = in_step(bodies.angular_velocity[b]),
-                   shift = in_step(bodies.velocity[b] - bodies.velocity[a]);
-        return {shift - turn_b.cross(view_->translation_ab),
-                turn_b - in_step(bodies.angular_velocity[a])};
+        return {in_step(velocity_there(b) - velocity_there(a)),
+                in_step(bodies.angular_velocity[b] - bodies.angular_velocity[a])};
     }
 
 private:

@@ -14,9 +14,10 @@ namespace ice {
 /// A place where two bodies touch or may touch within the step. Lists of contacts are ordered by
 /// (a, b), within a pair by place (ContactFinder): results depend on that order.
 struct Contact {
-    std::int32_t a, b;                ///< bodies, a < b; a = 0 is the ship
-    std::int32_t sphere_a, sphere_b;  ///< contact spheres of their shapes; -1 where solids meet,
-                                      ///< but for the ship's, which records the load
+    std::int32_t a, b;  ///< bodies, a < b; a = 0 is the ship
+    /// Contact spheres of their shapes. Where solids meet: -1; of the ship the nearest sphere, for
+    /// which the load is recorded.
+    std::int32_t sphere_a, sphere_b;
     /// The same contact of a pair has it in the next step, too. The solver begins with the impulse
     /// that this contact had in the last step.
     std::uint64_t key;

@@ -57,11 +57,13 @@ double section_of_corner(const SolidPair& solids, const ContactPolygon& polygon,
            static_cast<double>(pressed);
 }
 
+// A length in whole steps of kSameGap: lengths that differ by rounding are equal.
+std::int64_t steps(double length) {
+    return static_cast<std::int64_t>(length / kSameGap + std::copysign(0.5, length));
+}
+
 // Orders corners by place, as place_key() does; coordinates that differ by rounding are equal.
 bool comes_before(const PolygonCorner& l, const PolygonCorner& r) {
-    const auto steps = [](double length) {
-        return static_cast<std::int64_t>(length / kSameGap + std::copysign(0.5, length));
-    };
     for (const auto& [p, q] : {std::pair(l.point.x(), r.point.x()),
                                std::pair(std::abs(l.point.y()), std::abs(r.point.y())),
                                std::pair(l.point.z(), r.point.z())}) {
@@ -72,14 +74,14 @@ bool comes_before(const PolygonCorner& l, const PolygonCorner& r) {
 }
 
 // Orders corners by depth. Of equally deep ones corners of a body come before edges that cross side
-// planes, so that rounding does not choose between two of them at one place.
+// planes.
 // @param gap_of  of a corner [m]
 template <class Gap>
 bool is_deeper_by(const Gap& gap_of, const PolygonCorner& l, const PolygonCorner& r) {
     const auto gap = [&](const PolygonCorner& c) {
-        return gap_of(c) + kSameGap * static_cast<double>(kind_of_corner(c));
+        return steps(gap_of(c)) + static_cast<std::int64_t>(kind_of_corner(c));
     };
-    const double of_l = gap(l), of_r = gap(r);
+    const std::int64_t of_l = gap(l), of_r = gap(r);
     return of_l < of_r || (of_l == of_r && comes_before(l, r));
 }
 
@@ -161,7 +163,7 @@ void choose_corners(const PairStep& step, ContactPolygon& polygon) {
 }  // namespace
 
 PairRule pair_rule_of(const Scene& scene, BodyPair pair, const ContactRule& rule) {
-    // What the ship crushes is known by its spheres.
+    // How deep the ship has crushed ice is known at the ice's spheres alone.
     if (rule.normal != NormalRule::surface ||
         (rule.crushes && pair.a == static_cast<std::int32_t>(kShip)))
         return PairRule::spheres;
@@ -248,6 +250,7 @@ void find_lost_polygon(const PairView& view, std::span<const Candidate> found, d
     const double crushed =
         view.scene.crushed.deepest_of(view.pair.a) + view.scene.crushed.deepest_of(view.pair.b);
     if (axes.widest() + crushed + lost_slack(view) < least)
+        // without motion: corners that close within the step have contacts of spheres
         find_polygon(solids, axes, most, {}, work, polygon);
 }
 
