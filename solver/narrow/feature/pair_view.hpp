@@ -68,12 +68,13 @@ struct PairView {
 };
 
 /// Upper bound of the speed at which surface points of the two bodies approach [m/s]: by the
-/// triangle inequality, |v_b - v_a| + |w_a| R_a + |w_b| R_b with the bounding radii R.
+/// triangle inequality, |v_b - v_a| + |w_a| R_a + |w_b| R_b with the bounding radii R, of a free ship
+/// from its centre of gravity.
 inline double closing_speed(const Scene& scene, BodyPair pair) {
     const Bodies& b = scene.bodies;
     const auto turning = [&](std::int32_t i) {
         return b.angular_velocity[i].norm() *
-               scene.shapes[static_cast<std::size_t>(b.shape[i])].bounding_radius;
+               (scene.shape_of(i).bounding_radius + b.arm(i, b.position[i]).norm());
     };
     return (b.velocity[pair.b] - b.velocity[pair.a]).norm() + turning(pair.a) + turning(pair.b);
 }

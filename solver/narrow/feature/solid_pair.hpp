@@ -2,6 +2,8 @@
 /// Pairs of bodies that meet as solids.
 #pragma once
 
+#include <cstdint>
+
 #include "common/math/ordered_products.hpp"
 #include "solver/narrow/feature/pair_view.hpp"
 #include "solver/narrow/feature/separating_axis.hpp"
@@ -35,7 +37,7 @@ public:
     RelativeStep relative() const {
         if (view_ == nullptr) return {};
         const Bodies& bodies = view_->scene.bodies;
-        const auto [a, b] = view_->pair;
+        const std::int32_t a = view_->pair.a, b = view_->pair.b;
         const Vec3& origin = bodies.position[a];
         const auto velocity_there = [&](std::int32_t i) {
             return Vec3(bodies.velocity[i] +
