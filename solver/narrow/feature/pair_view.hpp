@@ -68,8 +68,8 @@ struct PairView {
 };
 
 /// Upper bound of the speed at which surface points of the two bodies approach [m/s]: by the
-/// triangle inequality, |v_b - v_a| + |w_a| R_a + |w_b| R_b with the bounding radii R, of a free ship
-/// from its centre of gravity.
+/// triangle inequality, |v_b - v_a| + |w_a| R_a + |w_b| R_b with the bounding radii R, of a free
+/// ship from its centre of gravity.
 inline double closing_speed(const Scene& scene, BodyPair pair) {
     const Bodies& b = scene.bodies;
     const auto turning = [&](std::int32_t i) {
