@@ -297,7 +297,7 @@ TEST_CASE("two edges keep their axis unless a face has nearly the same", "[narro
         const double angle = 2.0 * std::asin(0.5 * (polygon.normal - axis).norm());
         REQUIRE(angle < PolygonTolerances::kSameAxis + tolerance(1e-9));
         ++(angle > 1e-9 ? faces : edges);
-        // the nearest corner is that of the edges, open or not
+        // one corner has the gap of the two edges, whether they overlap or not
         double least = kAll;
         for (const PolygonCorner& c : polygon.corners) least = std::min(least, c.gap);
         REQUIRE(std::abs(least - axes.widest()) <= PolygonTolerances::kPrefer);

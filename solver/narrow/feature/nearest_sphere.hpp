@@ -9,7 +9,7 @@ namespace ice {
 
 /// The surface sphere whose centre, before any crushing, is nearest to a point [m] in the shape's
 /// axes; of equals the one that comes first in Shape::mirror_rank, then by number. Every shape has
-/// one. Cost: the boxes of all clusters, and what lies in those that may be nearer.
+/// one. Cost: a test of each cluster's box, and the spheres of the nearest clusters.
 std::int32_t nearest_sphere(const Shape& shape, const Vec3& point);
 
 }  // namespace ice

@@ -43,7 +43,7 @@ public:
             return Vec3(bodies.velocity[i] +
                         bodies.angular_velocity[i].cross(bodies.arm(i, origin)));
         };
-        // what a velocity in the world's axes gives in the step, in a's axes
+        // turns a velocity into a displacement: the world's axes to a's, times the step
         const auto in_step = [&](const Vec3& velocity) {
             return Vec3(dt_ * ordered_transposed(bodies.rotation[a], velocity));
         };
