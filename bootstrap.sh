@@ -122,8 +122,8 @@ run_sanitized() {
     done
     install_packages "${packages[@]}" "${test_packages[@]}"
     cmake --preset asan-ubsan -DICE_TESTS=ON -DICE_PRECOMPILED_HEADERS=ON -DICE_UNITED_SOURCES=ON
-    cmake --build --preset asan-ubsan --parallel "$(job_count)" --target "$@" write_sample_run
-    run_tests asan-ubsan build/asan-ubsan -R "^($names):"
+    cmake --build --preset asan-ubsan --parallel "$(job_count)" --target "$@"
+    run_tests asan-ubsan build/asan-ubsan --label-regex "^($names)$"
 }
 
 cd "$(dirname "${BASH_SOURCE[0]}")"
