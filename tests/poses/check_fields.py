@@ -6,10 +6,10 @@
 
 PROGRAMS is the folder of spherize, icefield and icesolve, MESHES that of paper-hull-3d.obj, WORK
 where the runs go. The paper's ship goes at 1 m/s into some 20 floes of 0.3 m thick ice that crushes
-at 1 MPa. The run stops at each second, and the poses are checked. Exit code 1 when two floes share
-more than --max-share of a floe's volume, without the ice that convex floes have crushed off each
-other (left_solids.py), or contacts did not know of an overlap (contacts.unseen_overlap_m, more than
-half a sphere radius). What the ship has crushed is not known, so that its depths are a bound.
+at 1 MPa. The run stops at each second, and the poses are checked. Exit code 1 when two bodies share
+more than --max-share of a floe's volume, without crushed ice (left_solids.py, crushed_notches.py),
+or contacts did not know of an overlap (contacts.unseen_overlap_m, more than half a sphere radius).
+Depths count the notches of spheres, so that they are a bound.
 """
 import argparse
 import json
@@ -20,7 +20,7 @@ import subprocess
 import sys
 
 import check_poses
-from left_solids import left_solids
+from crushed_notches import take_crushed
 from run_poses import Run
 
 RADIUS = 0.05  # of the ice's spheres [m]
@@ -113,7 +113,7 @@ def run_second(options, folder, second):
         call(options.programs / "icesolve", folder / "case.cfg", "--restart",
              run / "checkpoint.h5", "--checkpoint-every", "1", *until)
     poses = Run(run)
-    poses.left = left_solids(run / "checkpoint.h5")
+    take_crushed(poses, run)
     return check_poses.check(poses, 1, first=len(poses.time) - 1)
 
 
@@ -123,14 +123,13 @@ def judge(options, folder):
              for row in run_second(options, folder, second)]
     summary = json.loads((folder / "run" / "summary.json").read_text(encoding="utf-8"))
     contacts = summary["contacts"]
-    worst = max((row for row in found if row["a"] > 0), key=lambda row: row["share"], default=None)
-    of_hull = max((row["share"] for row in found if row["a"] == 0), default=0.0)
 
-    def deepest(of_hull):
-        return max((row["depth_m"] for row in found if (row["a"] == 0) == of_hull), default=0.0)
+    def most(key, of_hull):
+        return max((row[key] for row in found if (row["a"] == 0) == of_hull), default=0.0)
 
-    return {"worst": worst, "share": worst["share"] if worst else 0.0, "hull_share": of_hull,
-            "floes": deepest(False), "hull": deepest(True),
+    return {"worst": max(found, key=lambda row: row["share"], default=None),
+            "share": most("share", False), "hull_share": most("share", True),
+            "floes": most("depth_m", False), "hull": most("depth_m", True),
             "unseen": contacts["unseen_overlap_m"]}
 
 
@@ -158,8 +157,8 @@ def main():
             got = judge(options, make_field(options, pattern, seed))
             of_pattern.append(got)
             name = f"{pattern}, seed {seed}"
-            if got["share"] > options.max_share:
-                row = got["worst"]
+            row = got["worst"]
+            if row and row["share"] > options.max_share:
                 faults.append(f"{name}: bodies {row['a']} and {row['b']} share "
                               f"{100 * row['share']:.2f} % of a floe at t = {row['time_s']:.2f} s")
             if got["unseen"] > 0.5 * RADIUS:

@@ -8,9 +8,9 @@
 RUN is a run folder or its run.h5. Each pair of bodies whose boxes meet is clipped exactly; the
 depth is that of the deepest of either one's surface samples inside the other. Solids count whole,
 as their meshes stand in run.h5: ice that contacts have crushed counts as overlap. With --at-end the
-last frame alone is looked at, and convex floes are without the ice that floes have crushed off
-them, by the run's checkpoint.h5 of the same time. Pairs of unbroken ice that never move are left
-out. Exit code 1 when a pair is beyond a limit.
+last frame alone is looked at, and crushed ice counts in no volume, by the run's checkpoint.h5 of
+the same time; in depths the notches of spheres still count. Pairs of unbroken ice that never move
+are left out. Exit code 1 when a pair is beyond a limit.
 """
 import argparse
 import json
@@ -20,8 +20,8 @@ import sys
 import numpy as np
 
 from clip_columns import overlap_volume
+from crushed_notches import take_crushed, whole_share
 from deepest_point import Samples, deepest
-from left_solids import left_solids
 from run_poses import Run
 
 SAMPLES_PER_THICKNESS = 5  # a floe's surface is sampled at a fifth of its thickness
@@ -70,7 +70,22 @@ def measure(frame, a, b):
     volume = overlap_volume(vertices[solid_b.triangles], triangles_a)
     if volume < LEAST_SHARE * min(solid_a.volume, solid_b.volume):
         return max(volume, 0.0), 0.0
+    volume *= uncrushed_share(frame, a, b)
     return volume, max(depth_of(frame, a, b), depth_of(frame, b, a))
+
+
+def uncrushed_share(frame, a, b):
+    """The share of a pair's overlap in which neither body's spheres have crushed the ice."""
+    notches = [frame.run.notches.get(body) for body in (b, a)]
+    if not any(notches):
+        return 1.0
+    solids = [frame.run.solid_to(b, a), frame.run.solid_to(a, b)]
+    of_a = frame.carry(solids[1].vertices, a, b)
+    box = np.maximum(solids[0].box[0], of_a.min(axis=0)), np.minimum(solids[0].box[1],
+                                                                      of_a.max(axis=0))
+    return whole_share(box, [(lambda points: points, solids[0].vertices[solids[0].triangles]),
+                             (lambda points: frame.carry(points, b, a), solids[1].vertices[solids[1].triangles])],
+                       notches)
 
 
 def depth_of(frame, body, other):
@@ -146,7 +161,7 @@ def main():
     parser.add_argument("run", nargs="+", help="run folder or run.h5")
     parser.add_argument("--every", type=int, default=1, help="look at each n-th frame")
     parser.add_argument("--at-end", action="store_true",
-                        help="the last frame, without ice that floes have crushed off each other")
+                        help="the last frame, without crushed ice")
     parser.add_argument("--max-share", type=float, default=0.005,
                         help="of the smaller floe's volume (default 0.005)")
     parser.add_argument("--max-depth", type=float, default=np.inf, help="[m] (default: no limit)")
@@ -158,7 +173,8 @@ def main():
         run = Run(name)
         first = 0
         if options.at_end:
-            run.left, first = left_solids(pathlib.Path(name) / "checkpoint.h5"), len(run.time) - 1
+            take_crushed(run, pathlib.Path(name))
+            first = len(run.time) - 1
         rows = check(run, options.every, first)
         report(run, name, rows, len(range(first, len(run.time), options.every)), options.worst)
         table[name] = rows

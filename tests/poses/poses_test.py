@@ -9,6 +9,7 @@ import h5py
 import numpy as np
 
 from clip_columns import overlap_volume
+from crushed_notches import Notches, crushed_notches, whole_share
 from deepest_point import Samples, deepest, is_inside
 from left_solids import left_solids
 
@@ -89,6 +90,45 @@ def left_of_crushed(folder):
     close(left[7].volume, 8.0 / 6 - 1.0 / 6, 1e-12, "a tetrahedron without its tip")
 
 
+def in_notches(folder):
+    """A lattice of 40 points a side: 1 % of the share of a circle, 1e-12 where faces lie between
+    points."""
+    tops = np.array([(0.0, 0, 0.5), (0.3, 0, 0.5)])
+    notches = Notches(tops, np.array([(0, 0, -0.1), (0, 0, -0.2)]), 0.1)
+    points = np.array([(0.05, 0, 0.45), (0.05, 0, 0.39), (0, 0, 0.51), (0.11, 0, 0.45),
+                       (0.3, 0.09, 0.31)])
+    assert list(notches.hold(points)) == [True, False, False, False, True]
+
+    def left(low, high, of_one, of_other):
+        one, other = box((1, 1, 1)), box((1, 1, 1), (0, 0, 0.9))
+        shifted = other[0] - (0, 0, 0.9)  # its own axes
+        solids = [(lambda p: p, one[0][one[1]]), (lambda p: p - (0, 0, 0.9), shifted[other[1]])]
+        return whole_share((np.array(low), np.array(high)), solids, [of_one, of_other])
+
+    # they share the height 0.4 to 0.5, of which the notch is a cylinder in a square
+    circle = np.pi * 0.1 ** 2 / 0.2 ** 2
+    low, high = (-0.1, -0.1, 0.3), (0.1, 0.1, 0.6)
+    close(left(low, high, notches, None), 1.0 - circle, 0.01 * circle, "a notch in one")
+    below = Notches(np.array([(0.0, 0, -0.5)]), np.array([(0, 0, 0.05)]), 0.1)
+    # in the other one's axes; 13.3 layers of points lie in the overlap, of which it takes 6 or 7
+    close(left(low, high, None, below), 1.0 - 0.5 * circle, 0.5 / 13 * circle, "half as deep")
+    close(left(low, high, notches, below), 1.0 - circle, 0.01 * circle, "a notch in both")
+    close(left((0.3, 0.3, 0.3), (0.4, 0.4, 0.6), notches, below), 1.0, 1e-12, "beside the notches")
+
+    # spheres of 0.1 m in a face, 0.2 m from each other; of body 2 the second one was crushed
+    folder.mkdir(parents=True, exist_ok=True)
+    with h5py.File(folder / "checkpoint.h5", "w") as file:
+        file["crushed.first"] = [-1, -1, 0]
+        file["crushed.recess"] = np.array([(0, 0, 0), (0, 0, -0.03), (0, 0, 0)], dtype=float)
+    with h5py.File(folder / "run.h5", "w") as file:
+        file["shapes/spheres"] = np.array([(9, 9, 9, 0.5)] + [(0.2 * k, 0, 0.4, 0.1)
+                                                              for k in range(3)])
+        file["shapes/sphere_offset"], file["frames/body_shape"] = [0, 1, 4], [1, 1]
+    got = crushed_notches(folder / "run.h5", folder / "checkpoint.h5")
+    assert list(got) == [2] and np.allclose(got[2].top, [(0.2, 0, 0.5)]), got
+    assert np.allclose((got[2].length[0], got[2].radius), (0.03, 0.15)), got
+
+
 def turned_together():
     """The volume does not depend on the axes, nor on which solid comes first."""
     dice = np.random.default_rng(5)
@@ -166,6 +206,7 @@ def program(folder):
 
 volumes()
 left_of_crushed(pathlib.Path(sys.argv[1]))
+in_notches(pathlib.Path(sys.argv[1]) / "notches")
 turned_together()
 depths()
 program(pathlib.Path(sys.argv[1]))

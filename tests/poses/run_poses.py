@@ -40,7 +40,8 @@ class Run:
             if file.attrs["dimension"] != 3:
                 sys.exit(f"{path}: a run in 2D; poses are checked in 3D only")
             self.solids = solids_of(file["shapes"])
-            self.left = {}  # {body: Solid} of crushed floes, where known (left_solids.py)
+            # crushed ice, where known (take_crushed): {body: Solid} and {body: Notches}
+            self.left, self.notches = {}, {}
             frames = file["frames"]
             self.time = frames["frame_time"][:]
             self.shape_of = np.concatenate([[0], frames["body_shape"][:]])
