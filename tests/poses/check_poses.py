@@ -81,11 +81,11 @@ def uncrushed_share(frame, a, b):
         return 1.0
     solids = [frame.run.solid_to(b, a), frame.run.solid_to(a, b)]
     of_a = frame.carry(solids[1].vertices, a, b)
-    box = np.maximum(solids[0].box[0], of_a.min(axis=0)), np.minimum(solids[0].box[1],
-                                                                      of_a.max(axis=0))
-    return whole_share(box, [(lambda points: points, solids[0].vertices[solids[0].triangles]),
-                             (lambda points: frame.carry(points, b, a), solids[1].vertices[solids[1].triangles])],
-                       notches)
+    box = (np.maximum(solids[0].box[0], of_a.min(axis=0)),
+           np.minimum(solids[0].box[1], of_a.max(axis=0)))
+    carries = (lambda points: points), (lambda points: frame.carry(points, b, a))
+    triangles = [solid.vertices[solid.triangles] for solid in solids]
+    return whole_share(box, list(zip(carries, triangles)), notches)
 
 
 def depth_of(frame, body, other):
