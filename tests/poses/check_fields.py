@@ -9,7 +9,7 @@ where the runs go. The paper's ship goes at 1 m/s into some 20 floes of 0.3 m th
 at 1 MPa. The run stops at each second, and the poses are checked. Exit code 1 when two bodies share
 more than --max-share of a floe's volume, without crushed ice (left_solids.py, crushed_notches.py),
 or contacts did not know of an overlap (contacts.unseen_overlap_m, more than half a sphere radius).
-Depths count the notches of spheres, so that they are a bound.
+Depths take notches as whole ice, so that they are upper bounds.
 """
 import argparse
 import json

@@ -8,9 +8,9 @@
 RUN is a run folder or its run.h5. Each pair of bodies whose boxes meet is clipped exactly; the
 depth is that of the deepest of either one's surface samples inside the other. Solids count whole,
 as their meshes stand in run.h5: ice that contacts have crushed counts as overlap. With --at-end the
-last frame alone is looked at, and crushed ice counts in no volume, by the run's checkpoint.h5 of
-the same time; in depths the notches of spheres still count. Pairs of unbroken ice that never move
-are left out. Exit code 1 when a pair is beyond a limit.
+last frame alone is looked at, and volumes are without crushed ice, as the run's checkpoint.h5 of
+the same time has it (README.md). Depths take notches as whole ice, so that they are upper bounds.
+Pairs of unbroken ice that never move are left out. Exit code 1 when a pair is beyond a limit.
 """
 import argparse
 import json
@@ -173,7 +173,8 @@ def main():
         run = Run(name)
         first = 0
         if options.at_end:
-            take_crushed(run, pathlib.Path(name))
+            folder = pathlib.Path(name)
+            take_crushed(run, folder if folder.is_dir() else folder.parent)
             first = len(run.time) - 1
         rows = check(run, options.every, first)
         report(run, name, rows, len(range(first, len(run.time), options.every)), options.worst)

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The notches in floes at a checkpoint: ice that their contact spheres have lost."""
+"""The notches in floes at a checkpoint: where ice was crushed at their contact spheres."""
+import sys
+
 import h5py
 import numpy as np
 
 from deepest_point import CHUNK, is_inside
 from left_solids import left_solids
 
-# A crushed sphere takes the surface within this many spacings of the spheres along (docs/method.md,
-# section 3). The spacing is the largest distance of a sphere of the shape from its nearest one.
+# The surface within this many spacings of a crushed sphere goes inwards with it (docs/method.md,
+# section 3, patch radius).
 PATCH = 0.75
 LATTICE = 40  # points along each side of the box in which two bodies may meet
 
@@ -34,18 +36,25 @@ class Notches:
                 & (aside <= self.radius * self.radius)).any(axis=1)
 
 
-def spacing_of(centres):
-    """The largest distance of a sphere from its nearest one."""
+def spacing_of(spheres):
+    """The largest distance of a sphere from the nearest one at about the same height: those of the
+    opposite face of a floe may be nearer. It is the nominal spacing or some per cent less. Twice
+    the radius where each sphere is alone.
+
+    @param spheres  [S, 4]: centre and radius
+    """
     nearest = []
-    for part in np.array_split(centres, len(centres) // 500 + 1):
-        away = np.linalg.norm(part[:, None] - centres, axis=2)
-        away[away == 0.0] = np.inf
-        nearest.append(away.min(axis=1))
-    return np.concatenate(nearest).max()
+    for part in np.array_split(spheres, len(spheres) // 500 + 1):
+        away = part[:, None] - spheres
+        distance = np.linalg.norm(away[:, :, :3], axis=2)
+        distance[(distance == 0.0) | (np.abs(away[:, :, 2]) > part[:, None, 3])] = np.inf
+        nearest.append(distance.min(axis=1))
+    nearest = np.concatenate(nearest)
+    return nearest[np.isfinite(nearest)].max(initial=2.0 * spheres[:, 3].max())
 
 
 def crushed_notches(run, checkpoint):
-    """{body: Notches} of the floes with crushed spheres. @param run  its run.h5"""
+    """{body: Notches} of the floes with crushed spheres; both are files of one run folder."""
     with h5py.File(checkpoint, "r") as file:
         first, move = file["crushed.first"][:], file["crushed.recess"][:]
     with h5py.File(run, "r") as file:
@@ -56,9 +65,9 @@ def crushed_notches(run, checkpoint):
         shape = shape_of[body]
         own = spheres[offset[shape]:offset[shape + 1]]
         if shape not in spacing:
-            spacing[shape] = spacing_of(own[:, :3])
+            spacing[shape] = spacing_of(own)
         moves = move[first[body]:first[body] + len(own)]
-        moved = np.linalg.norm(moves, axis=1) > 0.0
+        moved = (moves != 0.0).any(axis=1)
         if not moved.any():
             continue
         moves, own = moves[moved], own[moved]
@@ -68,13 +77,17 @@ def crushed_notches(run, checkpoint):
 
 
 def take_crushed(run, folder):
-    """Lets a run know what its checkpoint has crushed: convex floes by floes, floes by spheres."""
+    """Gives a run what its checkpoint knows of crushed ice: what floes have cut off convex floes,
+    and the notches of crushed spheres."""
+    if (folder / "pieces.h5").exists():
+        sys.exit(f"{folder}: level ice; what its checkpoint has crushed is known by slot, not piece")
     run.left = left_solids(folder / "checkpoint.h5")
     run.notches = crushed_notches(folder / "run.h5", folder / "checkpoint.h5")
 
 
 def whole_share(box, solids, notches):
-    """The share of the volume of two solids' overlap that lies in no notch of either.
+    """The share of the volume of two solids' overlap that lies in no notch of either, counted on a
+    lattice. 1 where no point of the lattice lies in both.
 
     @param box      in which they may meet, in the axes of the first
     @param solids   [(carry, triangles)] of both: carry brings points into the solid's axes

@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 from clip_columns import overlap_volume
-from crushed_notches import Notches, crushed_notches, whole_share
+from crushed_notches import Notches, crushed_notches, spacing_of, whole_share
 from deepest_point import Samples, deepest, is_inside
 from left_solids import left_solids
 
@@ -91,8 +91,7 @@ def left_of_crushed(folder):
 
 
 def in_notches(folder):
-    """A lattice of 40 points a side: 1 % of the share of a circle, 1e-12 where faces lie between
-    points."""
+    """A lattice of 40 points a side: 1 % of the share of a circle. No point is on a face."""
     tops = np.array([(0.0, 0, 0.5), (0.3, 0, 0.5)])
     notches = Notches(tops, np.array([(0, 0, -0.1), (0, 0, -0.2)]), 0.1)
     points = np.array([(0.05, 0, 0.45), (0.05, 0, 0.39), (0, 0, 0.51), (0.11, 0, 0.45),
@@ -110,23 +109,32 @@ def in_notches(folder):
     low, high = (-0.1, -0.1, 0.3), (0.1, 0.1, 0.6)
     close(left(low, high, notches, None), 1.0 - circle, 0.01 * circle, "a notch in one")
     below = Notches(np.array([(0.0, 0, -0.5)]), np.array([(0, 0, 0.05)]), 0.1)
-    # in the other one's axes; 13.3 layers of points lie in the overlap, of which it takes 6 or 7
-    close(left(low, high, None, below), 1.0 - 0.5 * circle, 0.5 / 13 * circle, "half as deep")
-    close(left(low, high, notches, below), 1.0 - circle, 0.01 * circle, "a notch in both")
-    close(left((0.3, 0.3, 0.3), (0.4, 0.4, 0.6), notches, below), 1.0, 1e-12, "beside the notches")
+    # in the other one's axes; of 14 layers of points in the overlap it takes 7
+    close(left(low, high, None, below), 1.0 - 0.5 * circle, 0.01 * circle, "half as deep")
+    # two circles that touch, in a rectangle
+    low, high = (-0.1, -0.1, 0.3), (0.3, 0.1, 0.6)
+    beside = Notches(np.array([(0.2, 0, -0.5)]), np.array([(0, 0, 0.2)]), 0.1)
+    one = Notches(tops[:1], np.array([(0, 0, -0.2)]), 0.1)
+    close(left(low, high, one, beside), 1.0 - circle, 0.01 * circle, "a notch in each")
+    close(left(low, high, one, None), 1.0 - 0.5 * circle, 0.01 * circle, "of each only one")
 
-    # spheres of 0.1 m in a face, 0.2 m from each other; of body 2 the second one was crushed
+    # Spheres of 0.1 m on a plate of 0.44 m, 0.2 and 0.3 m from each other along it and 0.24 m
+    # across. Body 1 has lost its last sphere, body 2 its second.
     folder.mkdir(parents=True, exist_ok=True)
+    moves = np.zeros((12, 3))
+    moves[[5, 7], 2] = 0.01, -0.03
     with h5py.File(folder / "checkpoint.h5", "w") as file:
-        file["crushed.first"] = [-1, -1, 0]
-        file["crushed.recess"] = np.array([(0, 0, 0), (0, 0, -0.03), (0, 0, 0)], dtype=float)
+        file["crushed.first"], file["crushed.recess"] = [-1, 0, 6], moves
+    places = [(x, 0, z, 0.1) for z in (0.12, -0.12) for x in (0.0, 0.2, 0.5)]
     with h5py.File(folder / "run.h5", "w") as file:
-        file["shapes/spheres"] = np.array([(9, 9, 9, 0.5)] + [(0.2 * k, 0, 0.4, 0.1)
-                                                              for k in range(3)])
-        file["shapes/sphere_offset"], file["frames/body_shape"] = [0, 1, 4], [1, 1]
+        file["shapes/spheres"] = np.array([(9, 9, 9, 0.5), *places])
+        file["shapes/sphere_offset"], file["frames/body_shape"] = [0, 1, 7], [1, 1]
     got = crushed_notches(folder / "run.h5", folder / "checkpoint.h5")
-    assert list(got) == [2] and np.allclose(got[2].top, [(0.2, 0, 0.5)]), got
-    assert np.allclose((got[2].length[0], got[2].radius), (0.03, 0.15)), got
+    assert list(got) == [1, 2], got
+    assert np.allclose(got[1].top, [(0.5, 0, -0.22)]) and np.allclose(got[2].top, [(0.2, 0, 0.22)])
+    assert np.allclose((got[1].length, got[2].length), ((0.01,), (0.03,))), got
+    close(got[2].radius, 0.75 * 0.3, 1e-12, "the patch of the widest spacing along the plate")
+    close(spacing_of(np.array([(0, 0, 0, 0.1)])), 0.2, 1e-12, "a sphere alone")
 
 
 def turned_together():
@@ -168,7 +176,8 @@ def depths():
 
 
 def write_run(path, centres):
-    """A run of one frame: a hull far away and floes of 2 x 1 x 0.5 m at these places."""
+    """A run of one frame: a hull far away and floes of 2 x 1 x 0.5 m at these places, each with
+    four spheres that reach its end at x = 1 m; in its checkpoint nothing is crushed."""
     floe, hull = box((2, 1, 0.5)), box((1, 1, 1))
     with h5py.File(path, "w") as file:
         file.attrs["dimension"] = 3
@@ -181,11 +190,26 @@ def write_run(path, centres):
         file["frames/ship_position"] = np.array([[100.0, 0, 0]])
         file["frames/position"] = np.array([centres], dtype=float)
         file["frames/orientation"] = np.tile([1.0, 0, 0, 0], (1, n, 1))
+        ends = [(0.95, y, z, 0.05) for y in (-0.2, 0.2) for z in (-0.1, 0.1)]
+        file["shapes/spheres"] = np.array([(0, 0, 0, 0.5), *ends])
+        file["shapes/sphere_offset"] = [0, 1, 5]
+
+
+def write_checkpoint(path, body, moves):
+    """A checkpoint in which these spheres of one body have moved."""
+    first = np.full(body + 1, -1)
+    first[body] = 0
+    with h5py.File(path, "w") as file:
+        for name in ("body", "planes", "corners", "edges", *(f"edge_{end}" for end in
+                     ("begin", "end", "left", "right"))):
+            file[f"crushed_solids.{name}"] = np.zeros(0, dtype=int)
+        file["crushed_solids.corner"] = np.zeros((0, 3))
+        file["crushed.first"], file["crushed.recess"] = first, np.array(moves, dtype=float)
 
 
 def program(folder):
     folder.mkdir(parents=True, exist_ok=True)
-    path = folder / "two.h5"
+    path = folder / "run.h5"
 
     def run(*options):
         return subprocess.run([sys.executable, "-B", HERE / "check_poses.py", path, *options],
@@ -199,9 +223,29 @@ def program(folder):
     assert expected in got.stdout, got
     assert run("--max-share", "0.05").returncode == 0
     assert run("--max-share", "0.05", "--max-depth", "0.09").returncode == 1
+    # Floe 1 was crushed by 0.1 m at two of its end's spheres, with notches of 0.3 m radius about
+    # y = 0.2, z = +-0.1. The overlap is -0.3 < y < 0.5 and |z| < 0.25 there; strips of z have the
+    # lens of both, from -0.1 to 0.5 at the height of either sphere.
+    moves = np.zeros((4, 3))
+    moves[2:, 0] = -0.1
+    write_checkpoint(path.with_name("checkpoint.h5"), 1, moves)
+    z = (np.arange(1000) + 0.5) / 4000
+    half = np.sqrt(0.3 ** 2 - (z - 0.1) ** 2)
+    left = 1.0 - 2.0 * half.mean() / 0.8
+    got = run("--at-end", "--max-share", "0.1")
+    assert got.returncode == 0, got
+    close(share_of(got.stdout), 4.0 * left, 0.04, "the share beside the notches")
+    # on the other floe, whose end is far away, they change nothing
+    write_checkpoint(path.with_name("checkpoint.h5"), 2, moves)
+    close(share_of(run("--at-end").stdout), 4.0, 1e-3, "notches elsewhere")
     write_run(path, [(0, 0, 0), (2.0, 0.2, 0)])
     got = run()
     assert got.returncode == 0 and "0 pairs overlap" in got.stdout, got
+
+
+def share_of(text):
+    """The first pair's, in per cent."""
+    return float(text.split(" m3, ")[1].split(" %")[0])
 
 
 volumes()
