@@ -80,7 +80,7 @@ def take_crushed(run, folder):
     """Gives a run what its checkpoint knows of crushed ice: what floes have cut off convex floes,
     and the notches of crushed spheres."""
     if (folder / "pieces.h5").exists():
-        sys.exit(f"{folder}: level ice; what its checkpoint has crushed is known by slot, not piece")
+        sys.exit(f"{folder}: level ice; its checkpoint knows crushed ice by slot, not by piece")
     run.left = left_solids(folder / "checkpoint.h5")
     run.notches = crushed_notches(folder / "run.h5", folder / "checkpoint.h5")
 
